@@ -1,0 +1,10 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The commands of the program `vielto`. Each function adds one subcommand with its options and callback;
+// a new command costs one NAME_command.cpp, one declaration here and one line in main.cpp.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace vielto {
+
+}  // namespace vielto

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Exit status: 0 done, 1 the work failed, 2 bad input (one line on standard error).
+#include <cstdio>
+#include <exception>
+
+#include "bad_input.h"
+#include "commands.h"
+
+int main(int argc, char** argv) {
+  CLI::App app{"vielto - mixing power of a granular mixer: geometry, records, numbers, regression"};
+  app.require_subcommand(1);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
+  } catch (const vielto::BadInput& error) {
+    std::fprintf(stderr, "vielto: %s\n", error.what());
+    return 2;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "vielto: %s\n", error.what());
+    return 1;
+  }
+  return 0;
+}
