@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Observation table: the one format in which a measurement, a LIGGGHTS run and a Yade run look alike. CSV with exactly
+// the header
+//   test,role,apparatus,observable,value,u,unit,speed,fill,moisture,normal_stress,shear_velocity,tilt,wall,material
+// SI units, angles in degrees, decimal point, no quotes, empty = not applicable. The key of a row is (test,
+// observable); the rows of a test share its conditions (speed ... material). `u` is the standard uncertainty (k = 1) of
+// `value`, > 0.
+//
+// Observables and their units (any apparatus may also state bulk_density, kg/m3):
+//   mixer     power_loaded, power_idle, power (W), torque_ripple (1)
+//   shearbox  shear_stress_peak, shear_stress_steady (Pa), plate_force_fluctuation (1)
+//   repose    angle (deg)        drum  angle (deg)
+//   bench     shaft_speed (1/s), loaded_mass (kg), zero_drift (W), dead_weight_gain (1), restitution (1), wall_angle
+//   (deg)
+//
+// Errors shared by rows stand in a covariance file beside it: test_a,observable_a,test_b,observable_b,covariance.
+//
+// Errors: a table that breaks this is refused with BadInput (file, line, column, reason); nothing is guessed or
+// skipped.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace vielto {
+
+struct Observation {
+  std::string test;
+  std::string role;  // fit: may be used to attribute; check: held out
+  std::string apparatus;
+  std::string observable;
+  double value = 0;
+  double u = 0;      // standard uncertainty, same unit
+  std::string unit;  // the observable's own unit, see above
+  // Conditions.
+  std::optional<double> speed;           // 1/s, the set speed
+  std::optional<double> fill;            // 1, bulk volume over drum volume
+  std::optional<double> moisture;        // 1, wet basis
+  std::optional<double> normal_stress;   // Pa
+  std::optional<double> shear_velocity;  // m/s
+  std::optional<double> tilt;            // deg, axis from horizontal
+  std::string wall;
+  std::string material;
+};
+
+struct Covariance {
+  std::string test_a, observable_a, test_b, observable_b;
+  double covariance = 0;  // product of the two observables' units
+};
+
+// The unit of an observable on an apparatus; nothing if there is no such observable there.
+std::optional<std::string> observable_unit(const std::string& apparatus, const std::string& observable);
+
+std::vector<Observation> read_observations(const std::string& path);
+
+// Refuses rows that the reader would refuse (BadInput naming `path` and the line the row would have had).
+void write_observations(const std::string& path, const std::vector<Observation>& rows);
+
+// Every pair must name two different rows of the table, once, with abs(covariance) <= u_a u_b.
+std::vector<Covariance> read_covariances(const std::string& path, const std::vector<Observation>& rows);
+
+}  // namespace vielto
