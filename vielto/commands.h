@@ -7,4 +7,6 @@
 
 namespace vielto {
 
+void add_geometry_command(CLI::App& app);
+
 }  // namespace vielto

@@ -9,6 +9,7 @@
 int main(int argc, char** argv) {
   CLI::App app{"vielto - mixing power of a granular mixer: geometry, records, numbers, regression"};
   app.require_subcommand(1);
+  vielto::add_geometry_command(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "rig_geometry.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "bad_input.h"
+
+namespace vielto {
+
+double GeometryInput::number(const std::string& name) {
+  const double value = file_.number(name);
+  used_.push_back({name, file_.text(name), {}});
+  return value;
+}
+
+double GeometryInput::positive(const std::string& name) {
+  const double value = number(name);
+  if (value <= 0) refuse(name, fmt::format("'{}' is {}", name, value), "state a value above 0");
+  return value;
+}
+
+double GeometryInput::not_negative(const std::string& name) {
+  const double value = number(name);
+  if (value < 0) refuse(name, fmt::format("'{}' is {}", name, value), "state a value of 0 or more");
+  return value;
+}
+
+int GeometryInput::count(const std::string& name, int at_least) {
+  const int value = file_.integer(name);
+  used_.push_back({name, file_.text(name), {}});
+  if (value < at_least) refuse(name, fmt::format("'{}' is {}", name, value), fmt::format("state {} or more", at_least));
+  return value;
+}
+
+const std::string& GeometryInput::choice(const std::string& name, const std::vector<std::string>& choices) {
+  const std::string& value = file_.text(name);
+  if (std::find(choices.begin(), choices.end(), value) == choices.end())
+    refuse(name, fmt::format("'{}' is '{}'", name, value), fmt::format("state one of: {}", fmt::join(choices, ", ")));
+  used_.push_back({name, value, choices});
+  return value;
+}
+
+void GeometryInput::refuse(const std::string& name, const std::string& what, const std::string& mend) const {
+  int line = 0;
+  for (const Parameter& p : file_.all())
+    if (p.name == name) line = p.line;
+  throw BadInput(file_.path(), line, what, mend);
+}
+
+RigGeometry rig_geometry(GeometryInput& input) {
+  input.choice("rig", {"mixer"});
+  return mixer_geometry(input);
+}
+
+}  // namespace vielto

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// vielto geometry PARFILE --out DIR [--set NAME=VALUE ...] [--picture FILE.png]   makes the meshes of a rig
+// vielto geometry --check FILE.stl [--closed]                                     measures one
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "bad_input.h"
+#include "commands.h"
+#include "geometry_output.h"
+#include "stl.h"
+
+namespace vielto {
+namespace {
+
+struct Options {
+  std::string par_file, folder, picture, check;
+  std::vector<std::string> settings;
+  bool closed = false;
+};
+
+void check(const Options& o) {
+  const Measure m = check_stl(o.check, o.closed);
+  fmt::print("{}: {} triangles, {} open edges, {} edges shared wrongly, smallest angle {:.2f} deg, area {:.6g} m2, ", o.check, m.triangles,
+             m.open_edges, m.crowded_edges, m.smallest_angle * 57.29577951308232, m.area);
+  if (m.open_edges == 0 && m.crowded_edges == 0)
+    fmt::print("volume {:.6g} m3 (normals {})\n", m.volume, m.volume > 0 ? "outward" : "inward");
+  else
+    fmt::print("open, so no volume\n");
+}
+
+void make(const Options& o) {
+  ParFile file = ParFile::read(o.par_file);
+  for (const std::string& setting : o.settings) {
+    const auto equals = setting.find('=');
+    if (equals == std::string::npos || equals == 0 || equals + 1 == setting.size())
+      throw BadInput("--set " + setting, 0, "is no setting", "write --set NAME=VALUE");
+    file.override_value(setting.substr(0, equals), setting.substr(equals + 1));
+  }
+  GeometryInput input(file);
+  const RigGeometry geometry = rig_geometry(input);
+  write_geometry(geometry, input, o.folder);
+  if (!o.picture.empty()) write_picture(geometry, o.picture);
+  for (const Part& part : geometry.parts) fmt::print("{}/{}.stl: {} triangles\n", o.folder, part.name, part.triangles.size());
+  for (const std::string& note : geometry.notes) fmt::print("{}\n", note);
+}
+
+}  // namespace
+
+void add_geometry_command(CLI::App& app) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand("geometry", "meshes (STL) of a rig from its parameter file, or the check of one mesh");
+  CLI::Option* par = command->add_option("parfile", options->par_file, "the rig's parameter file, e.g. cases/mixer/mixer.par");
+  CLI::Option* out = command->add_option("--out", options->folder, "folder for the meshes and geometry.par");
+  par->needs(out);
+  out->needs(par);
+  command->add_option("--set", options->settings, "NAME=VALUE in place of the file's value")->needs(par);
+  command->add_option("--picture", options->picture, "also render a view into this PNG (needs a display)")->needs(par);
+  CLI::Option* check_option = command->add_option("--check", options->check, "measure this STL file instead")->excludes(par);
+  command->add_flag("--closed", options->closed, "with --check: the surface must be closed")->needs(check_option);
+  command->callback([options] {
+    if (!options->check.empty())
+      check(*options);
+    else if (!options->par_file.empty())
+      make(*options);
+    else
+      throw CLI::RequiredError("a parameter file with --out, or --check FILE.stl");
+  });
+}
+
+}  // namespace vielto
