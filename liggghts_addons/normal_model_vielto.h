@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/* LIGGGHTS adapter of ViElTo's normal force (vielto_law.h). `pair_style gran model vielto ...`
+
+   Settings (after the model keywords):
+     springFactor VALUE      c_n, default 4 as printed; 1 makes normalDamping the damping ratio
+     wallRadiusFactor VALUE  R_2/R_1 of a wall, default 2 (what Yade takes for a facet)
+     limitForce on|off       on: no attraction from the dashpot at separation; default off
+     maxOverlap VALUE        stop the run when an overlap exceeds VALUE times the diameter of the smaller
+                             grain, naming grain and step; default 0: no limit
+
+   Leaves to the later models in sidata: Fn (spring plus dashpot, without cohesion), kn = k_n, kt = k_s,
+   gamman, gammat. */
+#ifdef NORMAL_MODEL
+NORMAL_MODEL(VIELTO, vielto, 20)
+#else
+#ifndef NORMAL_MODEL_VIELTO_H
+#define NORMAL_MODEL_VIELTO_H
+
+#include "contact_models.h"
+#include "fix_mesh_surface.h"
+#include "normal_model_base.h"
+#include "tri_mesh.h"
+#include "vielto_properties.h"
+#include "vielto_state.h"
+
+namespace LIGGGHTS {
+namespace ContactModels {
+
+template <>
+class NormalModel<VIELTO> : public NormalModelBase {
+ public:
+  NormalModel(LAMMPS* lmp, IContactHistorySetup* hsetup, class ContactModelBase* c)
+      : NormalModelBase(lmp, hsetup, c),
+        springFactor_(4.0),
+        wallRadiusFactor_(2.0),
+        maxOverlap_(0.0),
+        limitForce_(false),
+        tally_(vielto::tally()) {}
+
+  void registerSettings(::Settings& settings) {
+    settings.registerDoubleSetting("springFactor", springFactor_, 4.0);
+    settings.registerDoubleSetting("wallRadiusFactor", wallRadiusFactor_, 2.0);
+    settings.registerDoubleSetting("maxOverlap", maxOverlap_, 0.0);
+    settings.registerOnOff("limitForce", limitForce_, false);
+  }
+
+  void postSettings(IContactHistorySetup*, ContactModelBase* cmb) {
+    if (!(springFactor_ > 0)) error->all(FLERR, "vielto: springFactor must be > 0 (4 as printed, or 1)");
+    if (!(wallRadiusFactor_ > 0)) error->all(FLERR, "vielto: wallRadiusFactor must be > 0 (default 2)");
+    if (!(maxOverlap_ >= 0)) error->all(FLERR, "vielto: maxOverlap must be >= 0 (0: no limit)");
+    vielto::Settings& shared = vielto::settings();
+    if (cmb->is_wall() && shared.chosen &&
+        (shared.springFactor != springFactor_ || shared.wallRadiusFactor != wallRadiusFactor_))
+      error->warning(FLERR, "vielto: springFactor or wallRadiusFactor of this wall differs from pair_style's");
+    if (!cmb->is_wall()) {
+      shared.springFactor = springFactor_;
+      shared.wallRadiusFactor = wallRadiusFactor_;
+      shared.chosen = true;
+    }
+  }
+
+  void connectToProperties(PropertyRegistry&) {
+    pairs_.read(lmp);
+    if (force->cg_active()) error->cg(FLERR, "model vielto");
+  }
+
+  // the normal spring is linear
+  double stressStrainExponent() { return 1.; }
+
+  void surfacesIntersect(SurfacesIntersectData& sidata, ForceData& i_forces, ForceData& j_forces) {
+    if (sidata.contact_flags) *sidata.contact_flags |= CONTACT_NORMAL_MODEL;
+    const double radj = sidata.is_wall ? wallRadiusFactor_ * sidata.radi : sidata.radj;
+    const vielto::Stiffness s =
+        vielto::stiffness(pairs_(sidata.itype, sidata.jtype), sidata.radi, radj, sidata.meff);
+    double Fn = vielto::normal_force(springFactor_, s, sidata.deltan, sidata.vn);
+    if (limitForce_ && Fn < 0.0) Fn = 0.0;
+
+    sidata.Fn = Fn;
+    sidata.kn = s.kn;
+    sidata.kt = s.ks;
+    sidata.gamman = s.gammaN;
+    sidata.gammat = s.gammaS;
+
+    const double diameter = 2 * (sidata.is_wall || sidata.radi < sidata.radj ? sidata.radi : sidata.radj);
+    if (sidata.computeflag && sidata.shearupdate) watch(sidata, diameter, Fn);
+
+    const double F = sidata.is_wall ? Fn * sidata.area_ratio : Fn;
+    const double fx = F * sidata.en[0], fy = F * sidata.en[1], fz = F * sidata.en[2];
+    i_forces.delta_F[0] += fx;
+    i_forces.delta_F[1] += fy;
+    i_forces.delta_F[2] += fz;
+    if (!sidata.is_wall) {
+      j_forces.delta_F[0] -= fx;
+      j_forces.delta_F[1] -= fy;
+      j_forces.delta_F[2] -= fz;
+    }
+  }
+
+  void surfacesClose(SurfacesCloseData& scdata, ForceData&, ForceData&) {
+    if (scdata.contact_flags) *scdata.contact_flags &= ~CONTACT_NORMAL_MODEL;
+  }
+
+  void beginPass(SurfacesIntersectData&, ForceData&, ForceData&) {}
+  void endPass(SurfacesIntersectData&, ForceData&, ForceData&) {}
+
+ private:
+  // Overlap limit, overlap statistics and the normal part of the energy accounts.
+  void watch(const SurfacesIntersectData& sidata, double diameter, double Fn) {
+    if (sidata.deltan > tally_.overlapMax * diameter) {
+      tally_.overlapMax = sidata.deltan / diameter;
+      if (maxOverlap_ > 0 && tally_.overlapMax > maxOverlap_) stop(sidata);
+    }
+    if (sidata.is_wall && Fn > tally_.wallForce) {
+      tally_.wallForce = Fn;
+      tally_.wallGrain = atom->tag[sidata.i];
+    }
+    if (!tally_.overlaps && !tally_.energy) return;
+    const double share = vielto::share(sidata, atom->nlocal, force->newton_pair);
+    if (tally_.overlaps) {
+      tally_.contacts += share;
+      tally_.overlapSum += share * sidata.deltan / diameter;
+    }
+    if (tally_.energy) {
+      const double spring = springFactor_ * sidata.kn * sidata.deltan;
+      tally_.elastic += share * 0.5 * spring * sidata.deltan;
+      tally_.normalDamping += share * (spring - Fn) * sidata.vn * update->dt;
+    }
+  }
+
+  void stop(const SurfacesIntersectData& sidata) {
+    char partner[200];
+    if (!sidata.is_wall)
+      snprintf(partner, sizeof partner, "grain %d", atom->tag[sidata.j]);
+    else if (sidata.fix_mesh)
+      snprintf(partner, sizeof partner, "triangle %d of mesh %s", sidata.mesh->id(sidata.j), sidata.fix_mesh->id);
+    else
+      snprintf(partner, sizeof partner, "a primitive wall");
+    const double* x = atom->x[sidata.i];
+    char line[512];
+    snprintf(line, sizeof line,
+             "vielto: step " BIGINT_FORMAT ": overlap of grain %d at (%.4g %.4g %.4g) m with %s is %.3g %% of the diameter, "
+             "over the limit of %.3g %% (maxOverlap); the grain is wedged or too soft: raise youngsModulus, or look at this place",
+             update->ntimestep, atom->tag[sidata.i], x[0], x[1], x[2], partner, 100 * tally_.overlapMax,
+             100 * maxOverlap_);
+    error->one(FLERR, line);
+  }
+
+  double springFactor_, wallRadiusFactor_, maxOverlap_;
+  bool limitForce_;
+  vielto::PairTable pairs_;
+  vielto::Tally& tally_;
+};
+
+}  // namespace ContactModels
+}  // namespace LIGGGHTS
+#endif
+#endif

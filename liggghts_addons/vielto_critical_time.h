@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/* The time scale that bounds the time step: the shortest half period of any contact that can occur (vielto_law.h),
+   with the settings of the pair_style line. LIGGGHTS' own check/timestep/gran is made for Hertzian contacts. */
+#ifndef VIELTO_CRITICAL_TIME_H
+#define VIELTO_CRITICAL_TIME_H
+
+namespace LAMMPS_NS {
+class LAMMPS;
+}
+
+namespace vielto {
+
+// Of grains of one radius (m) and density (kg/m3) and of any two types, on each other and on walls, s.
+double shortest_half_period_of(LAMMPS_NS::LAMMPS* lmp, double radius, double density);
+
+// Of the grains that are there, s; 0 if there are none. Collective.
+double shortest_half_period_now(LAMMPS_NS::LAMMPS* lmp);
+
+}  // namespace vielto
+
+#endif

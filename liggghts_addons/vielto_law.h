@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/* ViElTo: linear viscoelastic contact law with sliding, rolling and twisting resistance.
+
+   Purpose   Forces and moments of one contact as stateless functions on numbers; needs the standard
+             library only. The LIGGGHTS adapters beside this file call nothing else.
+   Source    D. Horvath, PhD thesis booklet, BME Budapest 2024, Thesis 2 (equations of motion and of
+             momentum). Corrected in the print: beta_ktw is defined there under the name beta_kr.
+
+   Bodies 1 and 2, radii R, masses m. A wall is body 2 with R_2 = wallRadiusFactor * R_1 and m_eff = m_1
+   (the thesis does not state R_2; Yade, in which it was computed, takes 2 R_1).
+
+     body stiffness      k_i  = 2 E_i R_i                                              N/m
+     normal stiffness    k_n  = 2 k_1 k_2 / (k_1 + k_2)                                N/m
+     tangential          k_s  = 2 (k_1 nu_1)(k_2 nu_2) / (k_1 nu_1 + k_2 nu_2)         N/m
+     normal force        F_n  = c_n k_n u_n - 2 sqrt(k_n m_eff) beta_n v_n             N
+     tangential force    F_s += -k_s v_s dt, |F_s| <= max(F_n, 0) tan(phi'); the dashpot
+                         -2 sqrt(k_s m_eff) beta_s v_s is added outside the cap        N
+     rolling moment      M_r += -k_r w_r dt,  k_r = beta_kr k_n R_1 R_2,
+                         |M_r| <= mu_r max(F_n, 0) 2 R_1 R_2/(R_1 + R_2)               N m
+     twisting moment     M_tw += -k_tw w_tw dt, k_tw = beta_ktw k_s R_1 R_2,
+                         |M_tw| <= mu_tw tan(phi') max(F_n, 0) 2 R_1 R_2/(R_1 + R_2)   N m
+     mixing              beta_n, beta_s, phi' mean; mu_r, mu_tw minimum;
+                         beta_kr, beta_ktw harmonic mean where both are > 0, else 0
+
+   Convention  n is the unit vector from body 2 to body 1 (LIGGGHTS; the thesis prints 1 to 2). Every
+               force and moment returned acts on body 1; body 2 gets the opposite force, the opposite
+               rolling and twisting moments, and its own lever arm times the tangential force.
+               v = v_1 - v_2, v_n = v.n (> 0 when the bodies part), v_s includes the spins.
+               u_n > 0 is overlap. F_n in the caps is spring plus dashpot, never cohesion.
+   Units       SI, angles in radians.
+   Limits      small overlap (u_n << R); angular momentum is conserved to u_n/(R_1 + R_2) because the
+               lever arms are the radii, as printed.
+*/
+#ifndef VIELTO_LAW_H
+#define VIELTO_LAW_H
+
+#include <algorithm>
+#include <cmath>
+
+namespace vielto {
+
+struct Vec {
+  double x, y, z;
+};
+
+inline Vec operator+(const Vec& a, const Vec& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+inline Vec operator-(const Vec& a, const Vec& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+inline Vec operator*(double s, const Vec& a) { return {s * a.x, s * a.y, s * a.z}; }
+inline double dot(const Vec& a, const Vec& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+inline Vec cross(const Vec& a, const Vec& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+// What one body brings into a contact.
+struct Material {
+  double youngsModulus;           // E, Pa
+  double stiffnessRatio;          // nu = k_s/k_n, 1; not an elastic constant
+  double frictionAngle;           // phi', rad
+  double normalDamping;           // beta_n, 1
+  double tangentialDamping;       // beta_s, 1
+  double rollingStiffnessFactor;  // beta_kr, 1
+  double twistingStiffnessFactor; // beta_ktw, 1
+  double rollingResistance;       // mu_r, 1
+  double twistingResistance;      // mu_tw, 1
+};
+
+// Two materials after the mixing rules; made once per pair of types.
+struct Pair {
+  double E1, E2;
+  double nu1, nu2;
+  bool equalRatio;  // nu1 == nu2, so that k_s = nu k_n saves a division and a root
+  double sqrtRatio; // sqrt(nu), where equalRatio
+  double betaN, betaS;
+  double tanPhi;
+  double betaKr, betaKtw;
+  double muR, muTwTanPhi;
+};
+
+inline double harmonic_mean_or_zero(double a, double b) { return (a > 0 && b > 0) ? 2 * a * b / (a + b) : 0.0; }
+
+inline Pair mix(const Material& a, const Material& b) {
+  Pair p;
+  p.E1 = a.youngsModulus;
+  p.E2 = b.youngsModulus;
+  p.nu1 = a.stiffnessRatio;
+  p.nu2 = b.stiffnessRatio;
+  p.equalRatio = a.stiffnessRatio == b.stiffnessRatio;
+  p.sqrtRatio = std::sqrt(a.stiffnessRatio);
+  p.betaN = 0.5 * (a.normalDamping + b.normalDamping);
+  p.betaS = 0.5 * (a.tangentialDamping + b.tangentialDamping);
+  p.tanPhi = std::tan(0.5 * (a.frictionAngle + b.frictionAngle));
+  p.betaKr = harmonic_mean_or_zero(a.rollingStiffnessFactor, b.rollingStiffnessFactor);
+  p.betaKtw = harmonic_mean_or_zero(a.twistingStiffnessFactor, b.twistingStiffnessFactor);
+  p.muR = std::min(a.rollingResistance, b.rollingResistance);
+  p.muTwTanPhi = std::min(a.twistingResistance, b.twistingResistance) * p.tanPhi;
+  return p;
+}
+
+// Stiffnesses and dashpot coefficients of one contact: k in N/m, gamma in N s/m.
+struct Stiffness {
+  double kn, ks;
+  double gammaN, gammaS;
+};
+
+inline Stiffness stiffness(const Pair& p, double R1, double R2, double mEff) {
+  const double a1 = p.E1 * R1;
+  const double a2 = p.E2 * R2;
+  Stiffness s;
+  s.kn = 4 * a1 * a2 / (a1 + a2);
+  const double rootN = std::sqrt(s.kn * mEff);
+  s.gammaN = 2 * p.betaN * rootN;
+  if (p.equalRatio) {
+    s.ks = p.nu1 * s.kn;
+    s.gammaS = 2 * p.betaS * p.sqrtRatio * rootN;
+  } else {
+    const double b1 = a1 * p.nu1;
+    const double b2 = a2 * p.nu2;
+    s.ks = 4 * b1 * b2 / (b1 + b2);
+    s.gammaS = 2 * p.betaS * std::sqrt(s.ks * mEff);
+  }
+  return s;
+}
+
+// F_n, N; c_n is the factor before k_n u_n (4 as printed, 1 makes beta_n the damping ratio).
+inline double normal_force(double cn, const Stiffness& s, double overlap, double vn) {
+  return cn * s.kn * overlap - s.gammaN * vn;
+}
+
+/* Carries a stored vector, perpendicular to the normal of the last step, over to the normal n of this one:
+   laid into the new tangent plane at unchanged length, and turned about n by the bodies' mean spin angle.
+   To second order in the turn of a step this is the rotation of the contact frame. */
+inline Vec turned_with_contact(const Vec& stored, const Vec& n, double spinAngle) {
+  const double along = dot(stored, n);
+  Vec t = stored - along * n;
+  const double before = dot(stored, stored);
+  if (before > 0) {
+    const double shortening = along * along / before;  // 1 - |t|^2/|stored|^2
+    t = (shortening < 1e-4 ? 1 + 0.5 * shortening : 1 / std::sqrt(std::max(1 - shortening, 1e-12))) * t;
+  }
+  return t + spinAngle * cross(n, t);
+}
+
+// Shortens v to at most `limit`. Returns true if it had to.
+inline bool cap(Vec& v, double limit) {
+  const double square = dot(v, v);
+  if (square <= limit * limit) return false;
+  v = (limit / std::sqrt(square)) * v;
+  return true;
+}
+
+// Spring part of the tangential force after this step; `stored` already turned. `sliding` tells the cap acted.
+inline Vec tangential_spring(const Stiffness& s, const Vec& stored, const Vec& vs, double dt, double slidingLimit,
+                             bool& sliding) {
+  Vec f = stored - (s.ks * dt) * vs;
+  sliding = cap(f, slidingLimit);
+  return f;
+}
+
+// Length in the moments' caps: 2 R_1 R_2/(R_1 + R_2), m.
+inline double rolling_length(double R1, double R2) { return 2 * R1 * R2 / (R1 + R2); }
+
+inline double rolling_stiffness(const Pair& p, double kn, double R1, double R2) { return p.betaKr * kn * R1 * R2; }
+inline double twisting_stiffness(const Pair& p, double ks, double R1, double R2) { return p.betaKtw * ks * R1 * R2; }
+
+// Spring part of the rolling moment after this step; `wr` is the relative spin less its part along n.
+inline Vec rolling_spring(double kr, const Vec& stored, const Vec& wr, double dt, double limit, bool& rolling) {
+  Vec m = stored - (kr * dt) * wr;
+  rolling = cap(m, limit);
+  return m;
+}
+
+// Spring part of the twisting moment along n after this step; wtw is the relative spin along n.
+inline double twisting_spring(double ktw, double stored, double wtw, double dt, double limit, bool& twisting) {
+  const double m = stored - ktw * dt * wtw;
+  twisting = std::fabs(m) > limit;
+  return twisting ? std::copysign(limit, m) : m;
+}
+
+/* Work of a spring with a cap in one step, J: what went in, less what is stored. The force is the mean of old
+   and new because the leapfrog's velocity belongs to the middle of the step; then a spring that neither slides
+   nor is turned dissipates exactly nothing. */
+inline double capped_spring_loss(const Vec& old, const Vec& now, const Vec& rate, double dt, double k) {
+  if (k <= 0) return 0.0;
+  const double work = -0.5 * dt * dot(old + now, rate);
+  return work - 0.5 * (dot(now, now) - dot(old, old)) / k;
+}
+
+inline double capped_spring_loss(double old, double now, double rate, double dt, double k) {
+  if (k <= 0) return 0.0;
+  return -0.5 * dt * (old + now) * rate - 0.5 * (now * now - old * old) / k;
+}
+
+// Contact time pi/omega_0 of the undamped normal oscillator, s.
+inline double normal_contact_time(double cn, double kn, double mEff) { return std::acos(-1.0) * std::sqrt(mEff / (cn * kn)); }
+
+/* The shortest half period of one contact's modes, s: normal, sliding with rolling (coupled), twisting.
+   Spheres have I = 2/5 m R^2. For a wall pass m2 = infinity and R2 = wallRadiusFactor R1; its spin is given. */
+inline double shortest_half_period(const Pair& p, double cn, double R1, double m1, double R2, double m2) {
+  const double pi = std::acos(-1.0);
+  const bool wall = std::isinf(m2);
+  const double mEff = wall ? m1 : m1 * m2 / (m1 + m2);
+  const Stiffness s = stiffness(p, R1, R2, mEff);
+  const double I1 = 0.4 * m1 * R1 * R1;
+  const double invI1 = 1 / I1;
+  const double invI2 = wall ? 0.0 : 1 / (0.4 * m2 * R2 * R2);
+  const double lever2 = wall ? 0.0 : R2;
+  const double normal = cn * s.kn / mEff;
+  const double sliding = s.ks * (1 / mEff + R1 * R1 * invI1 + lever2 * lever2 * invI2);
+  const double kr = rolling_stiffness(p, s.kn, R1, R2);
+  const double rolling = kr * (invI1 + invI2);
+  const double coupling = std::sqrt(s.ks * kr) * (R1 * invI1 - lever2 * invI2);
+  const double coupled =
+      0.5 * (sliding + rolling) + std::sqrt(0.25 * (sliding - rolling) * (sliding - rolling) + coupling * coupling);
+  const double twisting = twisting_stiffness(p, s.ks, R1, R2) * (invI1 + invI2);
+  return pi / std::sqrt(std::max(normal, std::max(coupled, twisting)));
+}
+
+/* Angular velocity of a rigid triangle from its corners r and their velocities v, rad/s. Walls hand over none,
+   and a grain riding a paddle would see false rolling. Source: v_k - v_0 = w x (r_k - r_0), solved for w. */
+inline Vec triangle_spin(const Vec& r0, const Vec& r1, const Vec& r2, const Vec& v0, const Vec& v1, const Vec& v2) {
+  const Vec a = r1 - r0, b = r2 - r0, va = v1 - v0, vb = v2 - v0;
+  const Vec normal = cross(a, b);
+  const double area = dot(normal, normal);  // |a x b|^2
+  if (area <= 0) return {0, 0, 0};
+  const double nva = dot(normal, va), nvb = dot(normal, vb);
+  return (1 / area) * (dot(va, b) * normal + nvb * a - nva * b);
+}
+
+}  // namespace vielto
+
+#endif
