@@ -21,6 +21,7 @@
 #include "modify.h"
 #include "update.h"
 #include "vielto_critical_time.h"
+#include "vielto_stop.h"
 
 using namespace LAMMPS_NS;
 using namespace FixConst;
@@ -37,6 +38,13 @@ void cross3(const double* a, const double* b, double* c) {
   c[0] = a[1] * b[2] - a[2] * b[1];
   c[1] = a[2] * b[0] - a[0] * b[2];
   c[2] = a[0] * b[1] - a[1] * b[0];
+}
+
+bool is_keyword(const std::string& word) {
+  for (const char* known : {"every", "file", "speed", "axis", "origin", "part", "each", "idle", "maxTorque", "dtLimit",
+                            "turns", "energy", "header"})
+    if (word == known) return true;
+  return false;
 }
 
 std::string format(const char* pattern, double value) {
@@ -115,7 +123,11 @@ void FixViEltoRecord::parse(int narg, char** arg) {
       energy_ = value == "on";
       i += 2;
     } else if (key == "header") {
-      need(2), header_.emplace_back(arg[i + 1], arg[i + 2]), i += 3;
+      need(2);
+      std::string value = arg[i + 2];
+      const std::string name = arg[i + 1];
+      for (i += 3; i < narg && !is_keyword(arg[i]); i++) value += std::string(" ") + arg[i];
+      header_.emplace_back(name, value);
     } else {
       error->fix_error(FLERR, this, ("unknown keyword " + key).c_str());
     }
@@ -392,7 +404,7 @@ void FixViEltoRecord::open_file() {
   if (comm->me != 0) return;
   if (restarted_) cut_file();
   file_ = fopen(path_.c_str(), restarted_ ? "a" : "w");
-  if (!file_) error->one(FLERR, ("vielto: cannot write " + path_ + "; does its folder exist?").c_str());
+  if (!file_) vielto::stop_here(lmp, ("vielto: cannot write " + path_ + "; does its folder exist?").c_str());
   if (!restarted_) write_header(file_);
 }
 
@@ -400,7 +412,7 @@ void FixViEltoRecord::open_file() {
 void FixViEltoRecord::cut_file() {
   std::ifstream in(path_);
   if (!in)
-    error->one(FLERR, ("vielto: cannot read " + path_ + ", the record which this restart carries on").c_str());
+    vielto::stop_here(lmp, ("vielto: cannot read " + path_ + ", the record which this restart carries on").c_str());
   const std::string cut = path_ + ".partial";
   std::ofstream out(cut);
   std::string line;
@@ -410,7 +422,7 @@ void FixViEltoRecord::cut_file() {
   }
   out.close();
   if (!out || rename(cut.c_str(), path_.c_str()) != 0)
-    error->one(FLERR, ("vielto: cannot rewrite " + path_).c_str());
+    vielto::stop_here(lmp, ("vielto: cannot rewrite " + path_).c_str());
 }
 
 void FixViEltoRecord::show_progress() {

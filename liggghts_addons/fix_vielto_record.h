@@ -13,7 +13,7 @@
        dtLimit F             refuse a time step over F times the shortest half period of a contact; default 0.05
        energy on|off         energy accounts (columns work_J ... ); default off
        turns T               length of the run in turns, for the progress line; 0: no progress line
-       header KEY VALUE      one `# KEY=VALUE` line more at the top of the file; repeatable
+       header KEY VALUE...   one `# KEY=VALUE` line more at the top of the file; repeatable; VALUE ends at the next keyword
 
    Torque columns: torque that the part exerts on the grains about the axis in the direction of rotation (positive: the
    drive supplies); force columns: force that the part exerts on the grains. Includes rolling and twisting couples.

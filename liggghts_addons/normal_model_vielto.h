@@ -22,6 +22,7 @@ NORMAL_MODEL(VIELTO, vielto, 20)
 #include "tri_mesh.h"
 #include "vielto_properties.h"
 #include "vielto_state.h"
+#include "vielto_stop.h"
 
 namespace LIGGGHTS {
 namespace ContactModels {
@@ -142,7 +143,7 @@ class NormalModel<VIELTO> : public NormalModelBase {
              "over the limit of %.3g %% (maxOverlap); the grain is wedged or too soft: raise youngsModulus, or look at this place",
              update->ntimestep, atom->tag[sidata.i], x[0], x[1], x[2], partner, 100 * tally_.overlapMax,
              100 * maxOverlap_);
-    error->one(FLERR, line);
+    vielto::stop_here(lmp, line);
   }
 
   double springFactor_, wallRadiusFactor_, maxOverlap_;

@@ -3,6 +3,7 @@
 
 #include <mpi.h>
 #include <stdio.h>
+#include <stdlib.h>
 
 #include <array>
 #include <filesystem>
@@ -58,6 +59,12 @@ std::vector<std::string> parameter_names(const std::string& path) {
   return names;
 }
 
+std::string joined(int narg, char** arg, int from) {
+  std::string line;
+  for (int i = from; i < narg; i++) line += (i > from ? " " : "") + std::string(arg[i]);
+  return line;
+}
+
 void write_json(const fs::path& path, const nlohmann::json& content) {
   const fs::path partial = path.string() + ".partial";
   std::ofstream(partial) << content.dump(2) << '\n';
@@ -68,16 +75,26 @@ void write_json(const fs::path& path, const nlohmann::json& content) {
 
 void ViEltoCommand::command(int narg, char** arg) {
   const std::string what = narg > 0 ? arg[0] : "";
-  if (what == "error" && narg == 2)
-    error->all(FLERR, arg[1]);
+  if (what == "error" && narg > 1)
+    error->all(FLERR, joined(narg, arg, 1).c_str());
   else if (what == "half_period" && narg == 6)
     half_period(narg, arg);
+  else if (what == "shell" && narg > 1)
+    shell(narg, arg);
+  else if (what == "prime" && narg == 3)
+    prime(narg, arg);
+  else if (what == "words" && narg > 2)
+    set_variable(arg[1], joined(narg, arg, 2).c_str());
+  else if (what == "provisional" && narg > 2)
+    provisional(narg, arg);
+  else if (what == "resume" && narg == 3)
+    resume(narg, arg);
   else if (what == "open" && narg > 2)
     open(narg, arg);
   else if (what == "close" && narg == 2)
     close(narg, arg);
   else
-    error->all(FLERR, "vielto: unknown form of this command; use error, half_period, open or close");
+    error->all(FLERR, "vielto: unknown form of this command; use error, half_period, shell, prime, words, provisional, open, resume or close");
 }
 
 void ViEltoCommand::half_period(int, char** arg) {
@@ -89,9 +106,59 @@ void ViEltoCommand::half_period(int, char** arg) {
   if (!(radius > 0 && density > 0)) error->all(FLERR, "vielto: half_period needs a radius and a density > 0");
   char value[64];
   snprintf(value, sizeof value, "%.12g", vielto::shortest_half_period_of(lmp, radius, density));
-  char string_style[] = "string";
-  char* set[3] = {arg[1], string_style, value};
+  set_variable(arg[1], value);
+}
+
+void ViEltoCommand::set_variable(char* name, const char* value) {
+  std::string text = value, style = "string";
+  char* set[3] = {name, &style[0], &text[0]};
   input->variable->set(3, set);
+}
+
+// Files are looked at by one processor only; all have to stop.
+void ViEltoCommand::stop_if(const std::string& faultOnRankZero) {
+  std::string fault = faultOnRankZero;
+  int length = static_cast<int>(fault.size());
+  MPI_Bcast(&length, 1, MPI_INT, 0, world);
+  if (length == 0) return;
+  fault.resize(length);
+  MPI_Bcast(&fault[0], length, MPI_CHAR, 0, world);
+  error->all(FLERR, fault.c_str());
+}
+
+void ViEltoCommand::shell(int narg, char** arg) {
+  const std::string line = joined(narg, arg, 1);
+  std::string fault;
+  if (comm->me == 0 && system(line.c_str()) != 0)
+    fault = "vielto: '" + line.substr(0, 160) + "' failed; its own message stands above";
+  stop_if(fault);
+}
+
+void ViEltoCommand::prime(int, char** arg) {
+  const int k = force->inumeric(FLERR, arg[2]);
+  if (k < 1 || k > 10000) error->all(FLERR, "vielto: seeds are numbers from 1 to 10000");
+  int candidate = 10000;
+  for (int found = 0; found < k;) {
+    bool isPrime = ++candidate > 1;
+    for (int d = 2; d * d <= candidate && isPrime; d++) isPrime = candidate % d != 0;
+    found += isPrime;
+  }
+  set_variable(arg[1], std::to_string(candidate).c_str());
+}
+
+void ViEltoCommand::provisional(int narg, char** arg) {
+  int found = 0;
+  std::string fault;
+  if (comm->me == 0)
+    for (int i = 2; i < narg; i++) {
+      std::ifstream in(arg[i]);
+      std::string first;
+      if (!std::getline(in, first)) fault = std::string("vielto: card ") + arg[i] + " cannot be read";
+      if (first.find("provisional") != std::string::npos) found = 1;
+    }
+  stop_if(fault);
+  MPI_Bcast(&found, 1, MPI_INT, 0, world);
+  set_variable(arg[1], found ? "1" : "0");
 }
 
 void ViEltoCommand::open(int narg, char** arg) {
@@ -130,11 +197,41 @@ void ViEltoCommand::open(int narg, char** arg) {
       }
     }
   }
-  int length = static_cast<int>(fault.size());
+  stop_if(fault);
+}
+
+void ViEltoCommand::resume(int, char** arg) {
+  const fs::path partial = std::string(arg[1]) + ".partial";
+  std::string fault, newest;
+  if (comm->me == 0) {
+    try {
+      std::ifstream in(partial / "run.json");
+      if (!in) throw std::runtime_error("it does not exist");
+      const nlohmann::json run = nlohmann::json::parse(in);
+      for (const auto& [key, value] : run.at("parameters").items()) {
+        std::string name = key;
+        const char* now = input->variable->retrieve(&name[0]);
+        if (now && key != "resume" && value.get<std::string>() != now)
+          throw std::runtime_error("it was started with " + key + " " + value.get<std::string>() + ", not " + now);
+      }
+      fs::file_time_type best{};
+      if (fs::exists(partial / "restart"))
+        for (const auto& entry : fs::directory_iterator(partial / "restart"))
+          if (entry.path().extension() == ".restart" && (newest.empty() || entry.last_write_time() > best)) {
+            newest = entry.path().string();
+            best = entry.last_write_time();
+          }
+      if (newest.empty()) throw std::runtime_error("it holds no restart file");
+    } catch (const std::exception& e) {
+      fault = "vielto: cannot resume " + partial.string() + ": " + e.what() + "; start anew without -var resume";
+    }
+  }
+  stop_if(fault);
+  int length = static_cast<int>(newest.size());
   MPI_Bcast(&length, 1, MPI_INT, 0, world);
-  fault.resize(length);
-  MPI_Bcast(&fault[0], length, MPI_CHAR, 0, world);
-  if (length) error->all(FLERR, fault.c_str());
+  newest.resize(length);
+  MPI_Bcast(&newest[0], length, MPI_CHAR, 0, world);
+  set_variable(arg[2], newest.c_str());
 }
 
 void ViEltoCommand::close(int, char** arg) {

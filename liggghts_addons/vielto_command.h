@@ -1,19 +1,27 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /* Script command `vielto`, for what an input script cannot say in LIGGGHTS' own words:
 
-     vielto error 'TEXT'                       stop the run with this line (exit status 1)
+     vielto error TEXT...                      stop the run with this line (exit status 1)
      vielto half_period NAME radius R density RHO
                                                set variable NAME to the shortest half period of a contact, s, for grains of
                                                this radius (m) and density (kg/m3); needs the pair_style line and properties
+     vielto shell COMMAND...                   run a program; stop if it fails (LIGGGHTS' own shell does not look)
+     vielto prime NAME K                       set variable NAME to the K-th prime over 10000, as LIGGGHTS wants its seeds
+     vielto words NAME W1 W2 ...               set variable NAME to these words (quoted text is not substituted by LIGGGHTS)
+     vielto provisional NAME F1 F2 ...         set variable NAME to 1 if a card's first line calls it provisional, else to 0
      vielto open FOLDER parameters F1 F2 ... inputs G1 G2 ...
                                                make FOLDER.partial with run.json: the present values of all parameters stated
                                                in the files F, hashes of all files F and G, versions, command line
+     vielto resume FOLDER NAME                 take up FOLDER.partial, broken off earlier with the same parameters: set
+                                               variable NAME to its newest restart file
      vielto close FOLDER                       mark run.json complete and rename FOLDER.partial to FOLDER */
 #ifdef COMMAND_CLASS
 CommandStyle(vielto, ViEltoCommand)
 #else
 #ifndef LMP_VIELTO_COMMAND_H
 #define LMP_VIELTO_COMMAND_H
+
+#include <string>
 
 #include "pointers.h"
 
@@ -26,7 +34,13 @@ class ViEltoCommand : protected Pointers {
 
  private:
   void half_period(int narg, char** arg);
+  void shell(int narg, char** arg);
+  void prime(int narg, char** arg);
+  void provisional(int narg, char** arg);
+  void set_variable(char* name, const char* value);
+  void stop_if(const std::string& faultOnRankZero);
   void open(int narg, char** arg);
+  void resume(int narg, char** arg);
   void close(int narg, char** arg);
 };
 
