@@ -170,7 +170,7 @@ void FixViEltoRecord::check_time_step() {
              "vielto: time step %.4g s is %.3g of the shortest half period of a contact (%.4g s), over the limit %.3g; "
              "take at most %.4g s",
              update->dt, dtOverTc_, tc, dtLimit_, dtLimit_ * tc);
-    error->all(FLERR, line);
+    vielto::stop_all(lmp, line);
   }
 }
 
@@ -238,7 +238,7 @@ void FixViEltoRecord::check_torque(const Part& part, double torque) const {
            "vielto: step " BIGINT_FORMAT " (turn %.3f): torque of %s is %.4g N m, over the limit of %.4g N m (maxTorque); the "
            "greatest wall force, %.4g N, acts on grain %d",
            update->ntimestep, turn(), part.name.c_str(), torque, maxTorque_, most.force, most.grain);
-  error->all(FLERR, line);
+  vielto::stop_all(lmp, line);
 }
 
 // Every grain must be there at every row: a lost one makes the means false.
@@ -269,7 +269,7 @@ void FixViEltoRecord::check_grains() {
              " grains are there; grain %d was lost since the last row, where it was at (%.4g %.4g %.4g) m with "
              "velocity (%.4g %.4g %.4g) m/s",
              update->ntimestep, turn(), now, grains_, anyTag, sent[0], sent[1], sent[2], sent[3], sent[4], sent[5]);
-    error->all(FLERR, line);
+    vielto::stop_all(lmp, line);
   }
   grains_ = now;
   places_.clear();

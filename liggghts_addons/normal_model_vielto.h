@@ -46,9 +46,9 @@ class NormalModel<VIELTO> : public NormalModelBase {
   }
 
   void postSettings(IContactHistorySetup*, ContactModelBase* cmb) {
-    if (!(springFactor_ > 0)) error->all(FLERR, "vielto: springFactor must be > 0 (4 as printed, or 1)");
-    if (!(wallRadiusFactor_ > 0)) error->all(FLERR, "vielto: wallRadiusFactor must be > 0 (default 2)");
-    if (!(maxOverlap_ >= 0)) error->all(FLERR, "vielto: maxOverlap must be >= 0 (0: no limit)");
+    if (!(springFactor_ > 0)) vielto::stop_all(lmp, "vielto: springFactor must be > 0 (4 as printed, or 1)");
+    if (!(wallRadiusFactor_ > 0)) vielto::stop_all(lmp, "vielto: wallRadiusFactor must be > 0 (default 2)");
+    if (!(maxOverlap_ >= 0)) vielto::stop_all(lmp, "vielto: maxOverlap must be >= 0 (0: no limit)");
     vielto::Settings& shared = vielto::settings();
     if (cmb->is_wall() && shared.chosen &&
         (shared.springFactor != springFactor_ || shared.wallRadiusFactor != wallRadiusFactor_))

@@ -21,6 +21,7 @@
 #include "variable.h"
 #include "vielto_critical_time.h"
 #include "vielto_state.h"
+#include "vielto_stop.h"
 
 using namespace LAMMPS_NS;
 namespace fs = std::filesystem;
@@ -76,7 +77,7 @@ void write_json(const fs::path& path, const nlohmann::json& content) {
 void ViEltoCommand::command(int narg, char** arg) {
   const std::string what = narg > 0 ? arg[0] : "";
   if (what == "error" && narg > 1)
-    error->all(FLERR, joined(narg, arg, 1).c_str());
+    vielto::stop_all(lmp, joined(narg, arg, 1).c_str());
   else if (what == "half_period" && narg == 6)
     half_period(narg, arg);
   else if (what == "shell" && narg > 1)
@@ -94,16 +95,16 @@ void ViEltoCommand::command(int narg, char** arg) {
   else if (what == "close" && narg == 2)
     close(narg, arg);
   else
-    error->all(FLERR, "vielto: unknown form of this command; use error, half_period, shell, prime, words, provisional, open, resume or close");
+    vielto::stop_all(lmp, "vielto: unknown form of this command; use error, half_period, shell, prime, words, provisional, open, resume or close");
 }
 
 void ViEltoCommand::half_period(int, char** arg) {
   if (std::string(arg[2]) != "radius" || std::string(arg[4]) != "density")
-    error->all(FLERR, "vielto: write 'vielto half_period NAME radius R density RHO'");
+    vielto::stop_all(lmp, "vielto: write 'vielto half_period NAME radius R density RHO'");
   if (!vielto::settings().chosen)
-    error->all(FLERR, "vielto: half_period needs 'pair_style gran model vielto ...' before it");
+    vielto::stop_all(lmp, "vielto: half_period needs 'pair_style gran model vielto ...' before it");
   const double radius = force->numeric(FLERR, arg[3]), density = force->numeric(FLERR, arg[5]);
-  if (!(radius > 0 && density > 0)) error->all(FLERR, "vielto: half_period needs a radius and a density > 0");
+  if (!(radius > 0 && density > 0)) vielto::stop_all(lmp, "vielto: half_period needs a radius and a density > 0");
   char value[64];
   snprintf(value, sizeof value, "%.12g", vielto::shortest_half_period_of(lmp, radius, density));
   set_variable(arg[1], value);
@@ -123,7 +124,7 @@ void ViEltoCommand::stop_if(const std::string& faultOnRankZero) {
   if (length == 0) return;
   fault.resize(length);
   MPI_Bcast(&fault[0], length, MPI_CHAR, 0, world);
-  error->all(FLERR, fault.c_str());
+  vielto::stop_all(lmp, fault.c_str());
 }
 
 void ViEltoCommand::shell(int narg, char** arg) {
@@ -136,7 +137,7 @@ void ViEltoCommand::shell(int narg, char** arg) {
 
 void ViEltoCommand::prime(int, char** arg) {
   const int k = force->inumeric(FLERR, arg[2]);
-  if (k < 1 || k > 10000) error->all(FLERR, "vielto: seeds are numbers from 1 to 10000");
+  if (k < 1 || k > 10000) vielto::stop_all(lmp, "vielto: seeds are numbers from 1 to 10000");
   int candidate = 10000;
   for (int found = 0; found < k;) {
     bool isPrime = ++candidate > 1;
@@ -245,7 +246,7 @@ void ViEltoCommand::close(int, char** arg) {
       write_json(partial / "run.json", run);
       fs::rename(partial, folder);
     } catch (const std::exception& e) {
-      error->one(FLERR, ("vielto: cannot complete the run folder " + folder.string() + ": " + e.what()).c_str());
+      vielto::stop_here(lmp, ("vielto: cannot complete the run folder " + folder.string() + ": " + e.what()).c_str());
     }
   }
   MPI_Barrier(world);

@@ -26,11 +26,11 @@
 #include <vector>
 
 #include "atom.h"
-#include "error.h"
 #include "fix_property_global.h"
 #include "modify.h"
 #include "pointers.h"
 #include "vielto_law.h"
+#include "vielto_stop.h"
 
 namespace vielto {
 
@@ -80,14 +80,14 @@ inline std::vector<double> read_property(LAMMPS_NS::LAMMPS* lmp, const PropertyR
              "vielto: property %s is missing; add 'fix ID all property/global %s peratomtype VALUE' with one value "
              "(%s) for each of the %d types",
              rule.name, rule.name, rule.unit, ntypes);
-    lmp->error->all(FLERR, line);
+    stop_all(lmp, line);
   }
   // a peratomtype property's own check knows its true length
   if (fix->size_vector != ntypes) {
     snprintf(line, sizeof line,
              "vielto: property %s has %d values, but there are %d types; give one value (%s) for each type", rule.name,
              fix->size_vector, ntypes, rule.unit);
-    lmp->error->all(FLERR, line);
+    stop_all(lmp, line);
   }
   std::vector<double> values(ntypes + 1, 0.0);
   for (int t = 1; t <= ntypes; t++) {
@@ -97,7 +97,7 @@ inline std::vector<double> read_property(LAMMPS_NS::LAMMPS* lmp, const PropertyR
     if (isnan(v) || isinf(v) || tooLow || tooHigh) {
       snprintf(line, sizeof line, "vielto: property %s of type %d is %g, out of its range %s%g, %g%s (%s)", rule.name, t,
                v, rule.lowAllowed ? "[" : "(", rule.low, rule.high, rule.highAllowed ? "]" : ")", rule.unit);
-      lmp->error->all(FLERR, line);
+      stop_all(lmp, line);
     }
     values[t] = v;
   }

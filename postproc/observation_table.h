@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Observation table: the one format in which a measurement, a LIGGGHTS run and a Yade run look alike. CSV with exactly
-// the header
+// Observation table: the one format in which a measurement, a LIGGGHTS run and a Yade run look alike.
+// CSV with exactly the header
 //   test,role,apparatus,observable,value,u,unit,speed,fill,moisture,normal_stress,shear_velocity,tilt,wall,material
 // SI units, angles in degrees, decimal point, no quotes, empty = not applicable. The key of a row is (test,
 // observable); the rows of a test share its conditions (speed ... material). `u` is the standard uncertainty (k = 1) of
@@ -9,9 +9,10 @@
 // Observables and their units (any apparatus may also state bulk_density, kg/m3):
 //   mixer     power_loaded, power_idle, power (W), torque_ripple (1)
 //   shearbox  shear_stress_peak, shear_stress_steady (Pa), plate_force_fluctuation (1)
-//   repose    angle (deg)        drum  angle (deg)
-//   bench     shaft_speed (1/s), loaded_mass (kg), zero_drift (W), dead_weight_gain (1), restitution (1), wall_angle
-//   (deg)
+//   repose    angle (deg)
+//   drum      angle (deg)
+//   bench     shaft_speed (1/s), loaded_mass (kg), zero_drift (W), dead_weight_gain (1), restitution (1),
+//             wall_angle (deg)
 //
 // Errors shared by rows stand in a covariance file beside it: test_a,observable_a,test_b,observable_b,covariance.
 //

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Runs the real `liggghts` on a script of a test: a temporary folder, the program's own command line, its exit status and
 // text, and dumps and thermo rows read back with all their digits.
-//   Run run;                                        // a temporary folder, removed at the end
+//   Liggghts run;                                   // a temporary folder, removed at the end
 //   run.script = head(box, 1, {millet}) + grains(run, spheres) + "run 100\n";
 //   Outcome done = run.start();                     // or start(2) on two ranks, start(1, Program::stock) with LD_PRELOAD
 #pragma once
@@ -70,15 +70,15 @@ struct Table {
   Vec torque(std::size_t row) const { return vec(row, "tqx", "tqy", "tqz"); }
 };
 
-class Run {
+class Liggghts {
  public:
-  Run() {
+  Liggghts() {
     std::string name = (std::filesystem::temp_directory_path() / "vielto-test-XXXXXX").string();
     folder = mkdtemp(name.data());
   }
-  ~Run() { std::filesystem::remove_all(folder); }
-  Run(const Run&) = delete;
-  Run& operator=(const Run&) = delete;
+  ~Liggghts() { std::filesystem::remove_all(folder); }
+  Liggghts(const Liggghts&) = delete;
+  Liggghts& operator=(const Liggghts&) = delete;
 
   // Starts the program on `script`; `options` is appended to its command line.
   Outcome start(int ranks = 1, Program program = Program::ours, const std::string& options = "") {
@@ -225,7 +225,7 @@ inline std::string settings_head(const std::string& boundary = "f f f") {
 
 /* The grains as a data file of the run and the line that reads it; positions and velocities keep all their digits.
    `half` is half the edge of the cubic box. */
-inline std::string grains(const Run& run, const std::vector<Sphere>& spheres, double half, std::size_t types = 1) {
+inline std::string grains(const Liggghts& run, const std::vector<Sphere>& spheres, double half, std::size_t types = 1) {
   std::string text = fmt::format(
       "grains of a test\n\n{} atoms\n{} atom types\n\n{:.17g} {:.17g} xlo xhi\n{:.17g} {:.17g} ylo yhi\n{:.17g} {:.17g} zlo "
       "zhi\n\nAtoms\n\n",
@@ -244,7 +244,7 @@ inline std::string grains(const Run& run, const std::vector<Sphere>& spheres, do
 }
 
 // The usual script up to the time step: box, grains, neighbours, properties, pair style with `settings`.
-inline std::string head(const Run& run, const std::vector<Sphere>& spheres, const std::vector<Material>& types,
+inline std::string head(const Liggghts& run, const std::vector<Sphere>& spheres, const std::vector<Material>& types,
                         double half, const std::string& settings = "", const std::string& boundary = "f f f") {
   double largest = 0;
   for (const Sphere& s : spheres) largest = std::max(largest, s.radius);

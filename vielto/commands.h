@@ -8,5 +8,9 @@
 namespace vielto {
 
 void add_geometry_command(CLI::App& app);
+void add_post_command(CLI::App& app);
+void add_fit_command(CLI::App& app);
+void add_predict_command(CLI::App& app);
+void add_compare_command(CLI::App& app);
 
 }  // namespace vielto

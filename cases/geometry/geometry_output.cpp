@@ -6,9 +6,10 @@
 #include <vtkAppendPolyData.h>
 #include <vtkCamera.h>
 #include <vtkCellArray.h>
+#include <vtkCellData.h>
+#include <vtkLightKit.h>
 #include <vtkNew.h>
 #include <vtkPNGWriter.h>
-#include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkPolyDataMapper.h>
@@ -17,10 +18,10 @@
 #include <vtkRenderer.h>
 #include <vtkSmartPointer.h>
 #include <vtkStringArray.h>
-#include <vtkCellData.h>
 #include <vtkWindowToImageFilter.h>
 #include <vtkXMLPolyDataWriter.h>
 
+#include <array>
 #include <filesystem>
 #include <stdexcept>
 
@@ -79,14 +80,13 @@ std::string geometry_par(const RigGeometry& geometry, const GeometryInput& input
   for (const GeometryInput::Used& used : input.used()) {
     text += fmt::format("variable {} index {}\n", used.name, used.value);
     std::string differs = fmt::format("${{{}}} != {}", used.name, used.value);
-    if (!used.choices.empty()) {
-      for (const std::string& choice : used.choices)
-        text += fmt::format("variable {}_{} index {}\n", used.name, choice, choice == used.value ? 1 : 0);
+    if (used.is_text) {
+      text += fmt::format("variable {}_{} index 1\nvariable {}_${{{}}} index 0\n", used.name, used.value, used.name, used.name);
       text += fmt::format("variable {}_same equal v_{}_${{{}}}\n", used.name, used.name, used.name);
       differs = fmt::format("${{{}_same}} == 0", used.name);
     }
-    text += fmt::format("if \"{}\" then \"vielto error '{} is ${{{}}} but the mesh in this folder was made with {}; make it anew with "
-                        "vielto geometry or drop -var {}'\"\n", differs, used.name, used.name, used.value, used.name);
+    text += fmt::format("if \"{}\" then \"vielto error '{} differs from {}, which the mesh in this folder was made with; make it anew "
+                        "with vielto geometry or drop -var {}'\"\n", differs, used.name, used.value, used.name);
   }
   return text;
 }
@@ -121,11 +121,13 @@ void write_picture(const RigGeometry& geometry, const std::string& path) {
     }
     renderer->AddActor(actor);
   }
+  vtkNew<vtkLightKit> lights;
+  lights->AddLightsToRenderer(renderer);
   renderer->GetActiveCamera()->SetPosition(0.7, -1.0, 0.6);
   renderer->GetActiveCamera()->SetFocalPoint(0, 0, 0);
   renderer->GetActiveCamera()->SetViewUp(0, 0, 1);
   renderer->ResetCamera();
-  renderer->GetActiveCamera()->Zoom(1.2);
+  renderer->GetActiveCamera()->Zoom(1.1);
   vtkNew<vtkRenderWindow> window;
   window->SetOffScreenRendering(1);
   window->SetMultiSamples(8);

@@ -10,7 +10,8 @@ namespace vielto {
 
 // The text of geometry.par: derived numbers, and for every parameter the mesh depends on its value and a check that stops a run
 // whose value (from -var or a parameter file included before) differs.
-// A text is compared through an indicator variable for each choice, because LIGGGHTS' `if` knows numbers only.
+// A text is compared through a variable named after it, NAME_VALUE, because LIGGGHTS' `if` knows numbers only: 1 for the mesh's
+// value, and an index variable that exists keeps its value, so that the run's own value makes a new one, 0, only if it differs.
 std::string geometry_par(const RigGeometry& geometry, const GeometryInput& input);
 
 // Writes all files into `folder` (made if missing); geometry.par goes first and comes back last, so that a folder with it is whole.

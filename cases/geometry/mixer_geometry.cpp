@@ -9,8 +9,6 @@
 namespace vielto {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-
 struct Mixer {
   double length;      // meshed length along x
   double pitch;       // axial distance of the paddles
@@ -37,17 +35,10 @@ bool is_end_wall(const Triangle& t) { return t[0].x() == t[1].x() && t[1].x() ==
 // The chords' end points from one rim to the other, counterclockwise seen from +x (left rim, bottom, right rim).
 std::vector<Eigen::Vector2d> drum_outline(double radius, double top, int segments) {
   std::vector<Eigen::Vector2d> outline{{-radius, top}};
-  for (int i = 0; i <= segments; ++i) {
-    const double angle = kPi + kPi * i / segments;
-    outline.emplace_back(radius * std::cos(angle), radius * std::sin(angle));
-  }
+  for (const auto& p : arc(radius, kPi, kPi, segments)) outline.push_back(p);
   outline.emplace_back(radius, top);
   return outline;
 }
-
-// Lengthwise pieces of a strip: two at least in a periodic box, so that no triangle meets an image of its own neighbour,
-// and as many as keep the triangles' smallest angle above about 1.4 degrees (LIGGGHTS complains below 0.5).
-int pieces(double length, double width) { return std::max(2, static_cast<int>(std::ceil(length / (40 * width)))); }
 
 int handed(const std::string& handing, int i, int count) {
   if (handing == "alternating") return i % 2 == 0 ? 1 : -1;
@@ -141,20 +132,16 @@ RigGeometry mixer_geometry(GeometryInput& input) {
                        "state another paddleAngleStep, or a shorter paddle");
       }
 
-  std::vector<Eigen::Vector2d> shaft_line;
-  for (int i = 0; i < shaft_segments; ++i) {
-    const double angle = 2 * kPi * i / shaft_segments;
-    shaft_line.emplace_back(shaft_radius * std::cos(angle), shaft_radius * std::sin(angle));
-  }
   const double shaft_chord = 2 * shaft_radius * std::sin(kPi / shaft_segments);
-  const Surface shaft = sweep(shaft_line, true, 0, m.length, pieces(m.length, shaft_chord));
+  const Surface shaft = sweep(arc(shaft_radius, 0, 2 * kPi, shaft_segments), true, 0, m.length,
+                              strip_pieces(m.length, shaft_chord));
 
   // The drum: counterclockwise would give outward normals, so the outline runs the other way round.
   auto outline = drum_outline(m.radius, m.top, drum_segments);
   auto inward = outline;
   std::reverse(inward.begin(), inward.end());
   const double drum_chord = 2 * m.radius * std::sin(kPi / (2 * drum_segments));
-  const int drum_pieces = pieces(m.length, drum_chord);
+  const int drum_pieces = strip_pieces(m.length, drum_chord);
   Surface drum = sweep(inward, false, 0, m.length, drum_pieces);
   const Surface end_walls{plate(outline, 0, true), plate(outline, m.length, false)};
   Surface closed_drum = drum;
@@ -164,7 +151,6 @@ RigGeometry mixer_geometry(GeometryInput& input) {
   if (!m.periodic) append(drum, end_walls);
 
   RigGeometry g;
-  g.rig = "mixer";
   g.parts.push_back({"drum", "drum", false, triangulate(drum)});
   g.parts.push_back({"shaft", "shaft", true, triangulate(shaft)});
   Surface all_stems, all_paddles;
@@ -202,8 +188,6 @@ RigGeometry mixer_geometry(GeometryInput& input) {
   }
 
   const double meshed_volume = measure(triangulate(closed_drum)).volume;
-  std::size_t triangles = 0;
-  for (const Part& part : g.parts) triangles += part.triangles.size();
   // inward normals: the divergence theorem gives minus the volume
   g.derived = {{"sliceLength", fmt::format("{:.12g}", m.length)},
                {"rotorTipRadius", fmt::format("{:.12g}", tip_radius)},
@@ -212,8 +196,7 @@ RigGeometry mixer_geometry(GeometryInput& input) {
                {"meshClearance", fmt::format("{:.6g}", gap)},
                {"paddleMeshes", fmt::format("{}", m.periodic ? m.paddles : 1)},
                {"paddleAngles", fmt::format("\"{}\"", fmt::join(angles, " "))},
-               {"meshedDrumVolume", fmt::format("{:.9g}", -meshed_volume)},
-               {"triangles", fmt::format("{}", triangles)}};
+               {"meshedDrumVolume", fmt::format("{:.9g}", -meshed_volume)}};
   const double outline_volume = m.length * (kPi * m.radius * m.radius / 2 + 2 * m.radius * m.top);
   g.notes.push_back(fmt::format("drum {:.4f} dm3 in {} chords, outline {:.4f} dm3 ({:.4f} dm3 for the whole drum)", -meshed_volume * 1e3,
                                 drum_segments, outline_volume * 1e3, outline_volume * 1e3 * drum_length / m.length));

@@ -11,7 +11,7 @@ namespace vielto {
 
 double GeometryInput::number(const std::string& name) {
   const double value = file_.number(name);
-  used_.push_back({name, file_.text(name), {}});
+  used_.push_back({name, file_.text(name), false});
   return value;
 }
 
@@ -29,7 +29,7 @@ double GeometryInput::not_negative(const std::string& name) {
 
 int GeometryInput::count(const std::string& name, int at_least) {
   const int value = file_.integer(name);
-  used_.push_back({name, file_.text(name), {}});
+  used_.push_back({name, file_.text(name), false});
   if (value < at_least) refuse(name, fmt::format("'{}' is {}", name, value), fmt::format("state {} or more", at_least));
   return value;
 }
@@ -38,7 +38,7 @@ const std::string& GeometryInput::choice(const std::string& name, const std::vec
   const std::string& value = file_.text(name);
   if (std::find(choices.begin(), choices.end(), value) == choices.end())
     refuse(name, fmt::format("'{}' is '{}'", name, value), fmt::format("state one of: {}", fmt::join(choices, ", ")));
-  used_.push_back({name, value, choices});
+  used_.push_back({name, value, true});
   return value;
 }
 
@@ -50,8 +50,21 @@ void GeometryInput::refuse(const std::string& name, const std::string& what, con
 }
 
 RigGeometry rig_geometry(GeometryInput& input) {
-  input.choice("rig", {"mixer"});
-  return mixer_geometry(input);
+  const std::string& rig = input.choice("rig", {"mixer", "shearbox", "repose", "drum"});
+  RigGeometry geometry = rig == "mixer"      ? mixer_geometry(input)
+                         : rig == "shearbox" ? shearbox_geometry(input)
+                         : rig == "repose"   ? repose_geometry(input)
+                                             : drum_geometry(input);
+  std::size_t triangles = 0;
+  for (const Part& part : geometry.parts) {
+    triangles += part.triangles.size();
+    const double angle = measure(part.triangles).smallest_angle * 180 / kPi;
+    if (angle < 0.5)  // LIGGGHTS warns below 0.5 degrees and stops below 0.26
+      throw BadInput(input.path(), 0, fmt::format("the mesh '{}' has a triangle with an angle of {:.3f} deg", part.name, angle),
+                     "use fewer chords, or change the lengths that leave a sliver");
+  }
+  geometry.derived.emplace_back("triangles", fmt::format("{}", triangles));
+  return geometry;
 }
 
 }  // namespace vielto

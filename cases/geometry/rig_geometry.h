@@ -17,7 +17,7 @@ class GeometryInput {
  public:
   struct Used {
     std::string name, value;
-    std::vector<std::string> choices;  // of a text parameter, empty for a number
+    bool is_text = false;
   };
 
   explicit GeometryInput(const ParFile& file) : file_(file) {}
@@ -33,6 +33,7 @@ class GeometryInput {
   // Throws BadInput at the parameter's line.
   [[noreturn]] void refuse(const std::string& name, const std::string& what, const std::string& mend) const;
 
+  const std::string& path() const { return file_.path(); }
   const std::vector<Used>& used() const { return used_; }
 
  private:
@@ -48,7 +49,6 @@ struct Part {
 };
 
 struct RigGeometry {
-  std::string rig;
   std::vector<Part> parts;
   std::vector<std::pair<std::string, std::string>> derived;  // name, value (quoted if it has blanks)
   std::vector<std::string> notes;                            // lines for the person at the terminal
@@ -59,6 +59,19 @@ struct RigGeometry {
 // Parts: drum, shaft, stems, paddle_1 ... A slice (slicePaddles >= 2) is periodic in x, 0 <= x <= slicePaddles * drumLength /
 // paddleCount; slicePaddles = 0 is the whole drum with both end walls. The drum's chords are inscribed: its vertices lie on the circle.
 RigGeometry mixer_geometry(GeometryInput& input);
+
+// Direct shear box: split plane z = 0, shear along x, centre x = y = 0, normals towards the grains. The upper half stands splitGap
+// above the lower: were the side walls flush, a grain at the split would be counted by both meshes. Parts: lower, upper (each with
+// flanges of flangeLength at the split on both sides along x), plate (closed, normals outward) at the top of the upper half.
+RigGeometry shearbox_geometry(GeometryInput& input);
+
+// Angle of repose by a lifted cylinder: base (square or disc, normal up) in z = 0, cylinder (open, normals inward) standing on it.
+RigGeometry repose_geometry(GeometryInput& input);
+
+// Rotating drum: axis along x, 0 <= x <= drumLength, normals inward; parts drum (mantle) and ends (squares around
+// the circle). A tilt of the axis is left to the
+// direction of gravity: (-sin tilt, 0, -cos tilt) puts the bed on the end x = 0.
+RigGeometry drum_geometry(GeometryInput& input);
 
 // The rig named by the parameter `rig`.
 RigGeometry rig_geometry(GeometryInput& input);

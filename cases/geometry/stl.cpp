@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 #include <vtkCallbackCommand.h>
+#include <vtkExecutive.h>
 #include <vtkNew.h>
 #include <vtkPolyData.h>
 #include <vtkSTLReader.h>
@@ -68,6 +69,7 @@ Triangles read_stl(const std::string& path) {
   });
   vtkNew<vtkSTLReader> reader;
   reader->AddObserver(vtkCommand::ErrorEvent, listen);
+  reader->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, listen);  // it complains once more by itself
   reader->SetFileName(path.c_str());
   reader->Update();
   if (!complaint.empty()) throw BadInput(path, 0, "is a corrupt STL file", kRemake);

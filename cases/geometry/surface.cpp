@@ -70,7 +70,10 @@ Surface box(const Point& centre, const Point& u, const Point& v, const Point& w)
     const Point c = centre + out;
     return {c - a - b, c + a - b, c + a + b, c - a + b};
   };
-  return {side(u, v, w), side(-u, w, v), side(v, w, u), side(-v, u, w), side(w, u, v), side(-w, v, u)};
+  Surface faces{side(u, v, w), side(-u, w, v), side(v, w, u), side(-v, u, w), side(w, u, v), side(-w, v, u)};
+  const auto area = [](const Face& f) { return (f[1] - f[0]).cross(f[3] - f[0]).norm(); };
+  std::stable_sort(faces.begin(), faces.end(), [&area](const Face& a, const Face& b) { return area(a) < 0.999 * area(b); });
+  return faces;
 }
 
 Surface sweep(const std::vector<Eigen::Vector2d>& line, bool closed, double x0, double x1, int pieces) {
@@ -85,6 +88,29 @@ Surface sweep(const std::vector<Eigen::Vector2d>& line, bool closed, double x0, 
       surface.push_back({{a, p.x(), p.y()}, {a, q.x(), q.y()}, {b, q.x(), q.y()}, {b, p.x(), p.y()}});
     }
   }
+  return surface;
+}
+
+int strip_pieces(double length, double width) { return std::max(1, static_cast<int>(std::ceil(length / (40 * width)))); }
+
+std::vector<Eigen::Vector2d> arc(double radius, double from, double angle, int segments) {
+  const bool whole_turn = angle > 2 * kPi - 1e-12;
+  std::vector<Eigen::Vector2d> points;
+  for (int i = 0; i < segments + (whole_turn ? 0 : 1); ++i) {
+    const double a = from + angle * i / segments;
+    points.emplace_back(radius * std::cos(a), radius * std::sin(a));
+  }
+  return points;
+}
+
+std::vector<Eigen::Vector2d> rectangle(double width, double height) {
+  const double a = width / 2, b = height / 2;
+  return {{-a, -b}, {a, -b}, {a, b}, {-a, b}};
+}
+
+Surface upright(Surface surface) {
+  for (Face& face : surface)
+    for (Point& p : face) p = Point(p.y(), p.z(), p.x());
   return surface;
 }
 

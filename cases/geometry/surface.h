@@ -15,6 +15,8 @@
 
 namespace vielto {
 
+constexpr double kPi = 3.14159265358979323846;
+
 using Point = Eigen::Vector3d;
 using Face = std::vector<Point>;
 using Surface = std::vector<Face>;
@@ -22,11 +24,27 @@ using Triangle = std::array<Point, 3>;
 using Triangles = std::vector<Triangle>;
 
 // Box with half edges u, v, w, right-handed (u x v along w); six faces, normals outward. Volume 8 u.(v x w).
+// The largest faces come last: LIGGGHTS gives a sharp edge to the later of its two triangles, and a grain on the other face within
+// sqrt(2 R overlap) of the edge feels face and edge at once. So the large faces are free of that.
 Surface box(const Point& centre, const Point& u, const Point& v, const Point& w);
 
 // Faces swept along x from x0 to x1 in `pieces` equal lengths from a line of points (y, z); counterclockwise in the y-z plane
 // gives normals away from the enclosed area, clockwise towards it. `closed` joins the last point to the first.
 Surface sweep(const std::vector<Eigen::Vector2d>& line, bool closed, double x0, double x1, int pieces);
+
+// Lengthwise pieces for strips of this width: as few as keep the triangles' smallest angle above 1.4 degrees (LIGGGHTS complains
+// below 0.5). One in most periodic slices, which is also best at the periodic seam (see README.md).
+int strip_pieces(double length, double width);
+
+// Points (y, z) on a circle about the origin, counterclockwise, the first at angle `from` (rad), `segments` chords over `angle`;
+// a whole turn has no last point equal to the first.
+std::vector<Eigen::Vector2d> arc(double radius, double from, double angle, int segments);
+
+// Corners of -width/2..width/2 by -height/2..height/2 in the y-z plane, counterclockwise.
+std::vector<Eigen::Vector2d> rectangle(double width, double height);
+
+// The x axis becomes the z axis, y becomes x, z becomes y.
+Surface upright(Surface surface);
 
 // Convex polygon in the plane x = const, from (y, z) points; normal along +x if `up`, else along -x. Either order of points.
 Face plate(std::vector<Eigen::Vector2d> outline, double x, bool up);

@@ -45,6 +45,18 @@ Eigen::MatrixXd Weights::whiten(const Eigen::MatrixXd& m) const {
   return factor_.triangularView<Eigen::Lower>().solve(m);
 }
 
+Eigen::MatrixXd Weights::precision_times(const Eigen::MatrixXd& m) const {
+  return factor_.transpose().triangularView<Eigen::Upper>().solve(whiten(m));
+}
+
+Eigen::VectorXd Weights::precision_diagonal() const {
+  const Eigen::Index n = size();
+  if (factor_.nonZeros() == n) return factor_.diagonal().cwiseAbs2().cwiseInverse();
+  Eigen::VectorXd diagonal(n);
+  for (Eigen::Index i = 0; i < n; ++i) diagonal[i] = whiten(Eigen::VectorXd::Unit(n, i)).squaredNorm();
+  return diagonal;
+}
+
 Weights Weights::scaled(const Eigen::VectorXd& scale) const {
   Weights w;
   w.factor_ = scale.asDiagonal() * factor_;

@@ -23,6 +23,9 @@ class Weights {
   Eigen::Index size() const { return factor_.rows(); }
   // L^-1 m, for a vector or the columns of a matrix of n rows.
   Eigen::MatrixXd whiten(const Eigen::MatrixXd& m) const;
+  // V^-1 m, and the diagonal of V^-1.
+  Eigen::MatrixXd precision_times(const Eigen::MatrixXd& m) const;
+  Eigen::VectorXd precision_diagonal() const;
   // The weights of the rows scaled by `scale` (of log values, say: scale = 1/value).
   Weights scaled(const Eigen::VectorXd& scale) const;
 

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What `vielto post` writes: power.json and table.txt (the numbers), phase.csv (torque over the phase of the turn),
+// observations.csv (rows of the observation table). SI units; a torque or power is the whole drum's.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mixing_power.h"
+#include "observation_table.h"
+
+namespace vielto {
+
+// Keys as in the code; *_u standard uncertainty (k = 1), *_u95 half width of the 95 % interval; null: not there.
+nlohmann::ordered_json power_json(const MixingPower& power);
+
+// For people: aligned, with units.
+std::string power_table(const MixingPower& power);
+
+// phase_deg (middle of the phase), paddle_Nm (one paddle against its own angle; empty for the whole drum), then the
+// whole drum against the angle of the shaft: paddles_Nm, stems_Nm, shaft_Nm, rotor_Nm and its standard uncertainty,
+// drum_Nm.
+std::string phase_csv(const MixingPower& power);
+
+struct TestLabel {
+  std::string test, role, wall;
+  std::optional<double> moisture;  // 1, wet basis
+};
+
+// Rows for power_loaded and power_idle, or power without an idling record, and for torque_ripple.
+std::vector<Observation> power_observations(const MixingPower& power, const TestLabel& label);
+
+// Such as n1.21-l0.15.
+std::string default_test_name(const MixingPower& power);
+
+}  // namespace vielto

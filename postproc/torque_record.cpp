@@ -1,0 +1,370 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "torque_record.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <map>
+#include <string_view>
+
+#include "bad_input.h"
+#include "csv.h"
+#include "numbers.h"
+
+namespace vielto {
+namespace {
+
+constexpr double kMostPaddleMismatch = 0.01;  // of the mean absolute paddle torque
+// A time this close to the edge of a phase, in turns, is the edge: printed times are rounded.
+constexpr double kSliver = 1e-3 / kPhases;
+
+// The lines `# key=value`, each asked for by name.
+class Keys {
+ public:
+  explicit Keys(const std::string& path) : path_(path) {}
+
+  void add(std::string_view line, int number) {
+    line.remove_prefix(1);
+    const auto equals = line.find('=');
+    if (equals == std::string_view::npos) return;  // a remark
+    const std::string key = trimmed(line.substr(0, equals));
+    if (!values_.emplace(key, std::pair(trimmed(line.substr(equals + 1)), number)).second)
+      throw BadInput(path_, number, fmt::format("key '{}' is stated twice", key), "keep one of the two lines");
+  }
+
+  std::string text(const std::string& key) const { return find(key).first; }
+  double number(const std::string& key, double least, bool above = false) const {
+    const auto& [value, line] = find(key);
+    const auto parsed = finite_number(value);
+    if (!parsed || *parsed < least || (above && *parsed == least))
+      throw BadInput(path_, line, fmt::format("key '{}' has the value '{}'", key, value),
+                     fmt::format("state a number {} {}", above ? "above" : "of at least", least));
+    return *parsed;
+  }
+  int integer(const std::string& key, int least) const {
+    const double value = number(key, least);
+    if (value != std::floor(value) || value > 1e9)
+      throw BadInput(path_, line(key), fmt::format("key '{}' has the value {}", key, value), "state a whole number");
+    return static_cast<int>(value);
+  }
+  std::vector<double> numbers(const std::string& key) const {
+    const auto& [value, line] = find(key);
+    std::vector<double> list;
+    for (std::string_view rest = value; !rest.empty();) {
+      const auto space = std::min(rest.find(' '), rest.size());
+      if (space > 0) {
+        const auto parsed = finite_number(rest.substr(0, space));
+        if (!parsed)
+          throw BadInput(path_, line, fmt::format("key '{}' holds '{}'", key, rest.substr(0, space)),
+                         "state numbers with spaces between them");
+        list.push_back(*parsed);
+      }
+      rest.remove_prefix(std::min(space + 1, rest.size()));
+    }
+    return list;
+  }
+  int line(const std::string& key) const { return find(key).second; }
+
+ private:
+  static std::string trimmed(std::string_view text) {
+    while (!text.empty() && (text.back() == ' ' || text.back() == '\r')) text.remove_suffix(1);
+    while (!text.empty() && text.front() == ' ') text.remove_prefix(1);
+    return std::string(text);
+  }
+  const std::pair<std::string, int>& find(const std::string& key) const {
+    const auto found = values_.find(key);
+    if (found == values_.end())
+      throw BadInput(path_, 0, fmt::format("lacks the key '{}'", key), fmt::format("add a line '# {}=VALUE'", key));
+    return found->second;
+  }
+
+  const std::string& path_;
+  std::map<std::string, std::pair<std::string, int>> values_;
+};
+
+TorqueRecordHeader parse_header(const std::string& path, const Keys& keys) {
+  if (keys.integer("schema", 0) != 1)
+    throw BadInput(path, keys.line("schema"), "the schema is not 1",
+                   "write the record with this package's own version");
+  TorqueRecordHeader h;
+  h.speed = keys.number("speed", 0, true);
+  h.fill = keys.number("fill", 0);
+  if (h.fill > 1)
+    throw BadInput(path, keys.line("fill"), fmt::format("key 'fill' has the value {}", h.fill), "state 0 to 1");
+  h.slice = keys.integer("slice", 0);
+  h.paddles = keys.integer("paddles", 1);
+  for (const double degrees : keys.numbers("paddle_angles_deg")) h.paddle_angles.push_back(degrees * kPi / 180);
+  h.paddle_angle_step = keys.number("paddle_angle_step_deg", -360) * kPi / 180;
+  h.paddle_handing = keys.text("paddle_handing");
+  h.seed = keys.text("seed");
+  h.material = keys.text("material");
+  h.provisional = keys.integer("provisional", 0) != 0;
+  h.dt = keys.number("dt", 0, true);
+  h.dt_over_tc = keys.number("dt_over_tc", 0);
+  h.steps_per_turn = keys.number("steps_per_turn", 0, true);
+  h.interval_steps = keys.integer("interval_steps", 1);
+  h.bulk_density = keys.number("bulk_density", 0, true);
+  h.bulk_cohesion = keys.number("bulk_cohesion", 0, true);
+  h.power_lever = keys.number("power_lever", 0, true);
+  h.drum_volume = keys.number("drum_volume", 0, true);
+  h.mass = keys.number("mass_kg", 0);
+  h.mass_target = keys.number("mass_target_kg", 0);
+  h.clearance = keys.number("clearance", 0);
+  if (h.slice > 0 && h.paddle_angles.size() != static_cast<std::size_t>(h.slice))
+    throw BadInput(path, keys.line("paddle_angles_deg"),
+                   fmt::format("states {} angles for a slice of {} paddles", h.paddle_angles.size(), h.slice),
+                   "state one angle for each paddle");
+  // 0.1 % of slack for rounded steps.
+  if (std::fabs(h.steps_per_turn * h.dt * h.speed - 1) > 1e-3)
+    throw BadInput(path, keys.line("steps_per_turn"),
+                   fmt::format("steps_per_turn * dt * speed is {:.6g}", h.steps_per_turn * h.dt * h.speed),
+                   "state numbers whose product is 1");
+  return h;
+}
+
+class Columns {
+ public:
+  Columns(const std::string& path, int line, const std::string& text) : path_(path), line_(line) {
+    std::vector<std::string_view> fields;
+    split_fields(text, fields);
+    names_.assign(fields.begin(), fields.end());
+    for (std::size_t i = 0; i < names_.size(); ++i)
+      if (!index_.emplace(names_[i], i).second)
+        throw BadInput(path, line, names_[i], "is there twice", "keep one of the two columns");
+  }
+  std::size_t count() const { return names_.size(); }
+  const std::string& name(std::size_t i) const { return names_[i]; }
+  bool has(const std::string& name) const { return index_.count(name) > 0; }
+  std::size_t at(const std::string& name) const {
+    const auto found = index_.find(name);
+    if (found == index_.end())
+      throw BadInput(path_, line_, name, "is missing from the header", "record this column too");
+    return found->second;
+  }
+
+ private:
+  const std::string& path_;
+  int line_;
+  std::vector<std::string> names_;
+  std::map<std::string, std::size_t> index_;
+};
+
+// Means over phases of the turn, one phase after another.
+class PhaseBins {
+ public:
+  explicit PhaseBins(std::size_t signals) : sums_(signals, 0.0), curves_(signals) {}
+
+  // Part of an interval inside the current phase: `share` of a turn, one value per signal.
+  void add(const std::vector<double>& values, double share) {
+    for (std::size_t s = 0; s < sums_.size(); ++s) sums_[s] += share * values[s];
+    weight_ += share;
+  }
+  void next() {
+    for (std::size_t s = 0; s < sums_.size(); ++s) {
+      curves_[s].push_back(sums_[s] / weight_);
+      sums_[s] = 0;
+    }
+    weight_ = 0;
+    ++count_;
+  }
+  long count() const { return count_; }  // of finished phases
+  std::vector<double>& curve(std::size_t s) { return curves_[s]; }
+
+ private:
+  std::vector<double> sums_;
+  std::vector<std::vector<double>> curves_;
+  double weight_ = 0;
+  long count_ = 0;
+};
+
+class EnergyColumns {
+ public:
+  explicit EnergyColumns(const Columns& columns) : kinetic_(columns.at("kinetic_J")), recorded_(columns.has("work_J")) {
+    if (!recorded_) return;
+    work_ = columns.at("work_J");
+    elastic_ = columns.at("elastic_J");
+    potential_ = columns.at("potential_J");
+    for (const char* name : {"normal", "tangential", "sliding", "rolling", "twisting"})
+      dissipated_.push_back(columns.at(fmt::format("diss_{}_J", name)));
+  }
+  bool recorded() const { return recorded_; }
+  EnergyAccounts at(const std::vector<double>& row) const {
+    EnergyAccounts accounts{row[work_], row[kinetic_], row[elastic_], row[potential_], 0};
+    for (const std::size_t column : dissipated_) accounts.dissipated += row[column];
+    return accounts;
+  }
+
+ private:
+  std::size_t kinetic_;
+  bool recorded_;
+  std::size_t work_ = 0, elastic_ = 0, potential_ = 0;
+  std::vector<std::size_t> dissipated_;
+};
+
+// Steps, times and turns must follow each other; an interval is [end - length, end] in turns.
+class Progress {
+ public:
+  Progress(const std::string& path, const TorqueRecordHeader& header, const Columns& columns)
+      : path_(path), h_(header), step_(columns.at("step")), time_(columns.at("time_s")), turn_(columns.at("turn")) {}
+
+  double length() const { return h_.interval_steps / h_.steps_per_turn; }
+
+  // End of the row's interval, in turns. Counted in steps: the printed turn is rounded.
+  double end(const std::vector<double>& row, int line) {
+    if (rows_++ == 0) first_ = {row[step_], row[time_], row[turn_]};
+    const double expected = first_[0] + (rows_ - 1) * h_.interval_steps;
+    if (row[step_] != expected)
+      throw BadInput(path_, line, "step", fmt::format("is {} where {} follows", row[step_], expected),
+                     "keep every row, interval_steps apart");
+    const double steps = row[step_] - first_[0];
+    const double time = first_[1] + steps * h_.dt, turn = first_[2] + steps / h_.steps_per_turn;
+    // Half an interval of slack for rounded print.
+    if (std::fabs(row[time_] - time) > 0.5 * h_.interval_steps * h_.dt)
+      throw BadInput(path_, line, "time_s", fmt::format("is {} where {} follows", row[time_], time),
+                     "keep one time step in one record");
+    if (std::fabs(row[turn_] - turn) > 0.5 * length())
+      throw BadInput(path_, line, "turn", fmt::format("is {} where {} follows", row[turn_], turn),
+                     "keep one speed in one record");
+    return turn;
+  }
+  double rows() const { return rows_; }
+
+ private:
+  const std::string& path_;
+  const TorqueRecordHeader& h_;
+  std::size_t step_, time_, turn_;
+  std::array<double, 3> first_ = {0, 0, 0};
+  double rows_ = 0;
+};
+
+// Reads the next row into `row`; false at the end of the file.
+bool read_row(std::ifstream& in, const std::string& path, int line, const Columns& columns, std::string& text,
+              std::vector<std::string_view>& fields, std::vector<double>& row) {
+  if (!std::getline(in, text)) return false;
+  split_fields(text, fields);
+  if (in.eof() || fields.size() != columns.count())
+    throw BadInput(path, line,
+                   in.eof() ? "is cut off: the last line does not end"
+                            : fmt::format("has {} values for {} columns", fields.size(), columns.count()),
+                   "remove the broken line, or run the case again");
+  row.resize(fields.size());
+  for (std::size_t i = 0; i < fields.size(); ++i) {
+    const auto value = finite_number(fields[i]);
+    if (!value)
+      throw BadInput(path, line, columns.name(i), fmt::format("'{}' is not a finite number", fields[i]),
+                     "run the case again; a record with such a value has no mean");
+    row[i] = *value;
+  }
+  return true;
+}
+
+// The paddles' own columns must add up to the part's.
+void check_paddles(const TorqueRecord& record) {
+  if (record.paddle.empty()) return;
+  double most = 0, size = 0;
+  for (std::size_t i = 0; i < record.part[0].size(); ++i) {
+    double sum = 0;
+    for (const auto& paddle : record.paddle) sum += paddle[i];
+    most += std::fabs(sum - record.part[0][i]);
+    size += std::fabs(record.part[0][i]);
+  }
+  if (most > kMostPaddleMismatch * size)
+    throw BadInput(record.path, 0,
+                   fmt::format("the {} paddle columns do not add up to paddles_Nm", record.paddle.size()),
+                   "record every paddle of the slice once");
+}
+
+}  // namespace
+
+std::vector<double> TorqueRecord::rotor() const {
+  std::vector<double> sum = part[0];
+  for (std::size_t p = 1; p < 3; ++p)
+    for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += part[p][i];
+  return sum;
+}
+
+TorqueRecord read_torque_record(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  if (!in) throw BadInput(path, 0, "cannot be read", "name a run folder or its torque.csv");
+  std::string text;
+  int line = 0;
+  Keys keys(path);
+  while (std::getline(in, text) && text.rfind("#", 0) == 0) keys.add(text, ++line);
+  if (!in) throw BadInput(path, 0, line == 0 ? "is empty" : "has no header line", "run the case again");
+
+  TorqueRecord record;
+  record.path = path;
+  record.header = parse_header(path, keys);
+  const TorqueRecordHeader& h = record.header;
+  const Columns columns(path, ++line, text);
+  Progress progress(path, h, columns);
+
+  // The signals kept by phase, in this order.
+  std::vector<std::size_t> kept;
+  for (const char* part : kParts) kept.push_back(columns.at(fmt::format("{}_Nm", part)));
+  kept.push_back(columns.at("idle_Nm"));
+  kept.push_back(columns.at("overlap_mean"));
+  const bool has_gravity = columns.has("gravity_Nm");
+  if (has_gravity) kept.push_back(columns.at("gravity_Nm"));
+  for (int k = 1; k <= h.slice; ++k) kept.push_back(columns.at(fmt::format("paddle{}_Nm", k)));
+  // Not used here, but part of the format.
+  for (const char* part : kParts)
+    for (const char* axis : {"x", "y", "z"}) columns.at(fmt::format("{}_F{}_N", part, axis));
+  columns.at("contacts");
+  const std::size_t overlap_max = columns.at("overlap_max"), grains = columns.at("grains");
+  const EnergyColumns energy(columns);
+
+  PhaseBins bins(kept.size());
+  std::vector<double> row, values(kept.size());
+  std::vector<std::string_view> fields;
+  double turn_overlap_max = 0;
+  while (read_row(in, path, line + 1, columns, text, fields, row)) {
+    const double end = progress.end(row, ++line);
+    const double begin = end - progress.length();
+    if (progress.rows() == 1) {
+      record.first_turn = std::max(0, static_cast<int>(std::ceil(begin - kSliver)));
+      record.first_grains = row[grains];
+    }
+    record.last_grains = row[grains];
+    const auto reaches = [&](long phase) {
+      return end >= record.first_turn + static_cast<double>(phase) / kPhases - kSliver;
+    };
+    if (energy.recorded() && record.energy.empty() && reaches(0)) record.energy.push_back(energy.at(row));
+    if (end <= record.first_turn + kSliver) continue;
+
+    for (std::size_t s = 0; s < kept.size(); ++s) values[s] = row[kept[s]];
+    turn_overlap_max = std::max(turn_overlap_max, row[overlap_max]);
+    for (double from = std::max(begin, static_cast<double>(record.first_turn));;) {
+      const double edge = record.first_turn + static_cast<double>(bins.count() + 1) / kPhases;
+      if (from < std::min(end, edge)) bins.add(values, std::min(end, edge) - from);
+      if (!reaches(bins.count() + 1)) break;
+      bins.next();
+      from = edge;
+      if (bins.count() % kPhases != 0) continue;
+      record.overlap_max.push_back(turn_overlap_max);
+      turn_overlap_max = end > edge + kSliver ? row[overlap_max] : 0;
+      if (energy.recorded()) record.energy.push_back(energy.at(row));
+    }
+  }
+  if (progress.rows() == 0) throw BadInput(path, 0, "holds no row", "run the case again");
+
+  record.turns = static_cast<int>(bins.count() / kPhases);
+  record.intervals_per_turn = 1 / progress.length();
+  std::size_t s = 0;
+  const auto take = [&](std::vector<double>& signal) {
+    signal = std::move(bins.curve(s++));
+    signal.resize(static_cast<std::size_t>(record.turns) * kPhases);  // the last turn may not be whole
+  };
+  for (auto& part : record.part) take(part);
+  take(record.idle);
+  take(record.overlap_mean);
+  if (has_gravity) take(record.gravity);
+  record.paddle.resize(static_cast<std::size_t>(h.slice));
+  for (auto& paddle : record.paddle) take(paddle);
+  check_paddles(record);
+  return record;
+}
+
+}  // namespace vielto

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Torque record `torque.csv`, schema 1: lines `# key=value`, a header, then rows of means over equal intervals of
+// steps. `step`, `time_s` and `turn` are the end of the interval; turns count from the start of the rotation. Torque:
+// what the part exerts on the grains about the axis in the direction of rotation, N m (positive: the drive supplies).
+// Force: what the part exerts on the grains, N. overlap_mean and overlap_max: fractions of the grain diameter.
+//
+// Read as a stream and kept as means over phases of the turn: 72 values a whole turn and signal. Memory grows with the
+// number of turns (about 6 kB each), not of rows. An interval that reaches over several phases counts in each by its
+// share of time. Turns that the record does not cover whole, at its start and end, are left out; no row inside is ever
+// dropped.
+//
+// Errors: BadInput with file, line and column for a missing key or column, a cut-off line, a value that is not a finite
+// number, steps that do not follow each other by interval_steps, times or turns that do not follow the steps, no rows.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace vielto {
+
+constexpr int kPhases = 72;  // of 5 degrees
+constexpr std::array<const char*, 4> kParts = {"paddles", "stems", "shaft", "drum"};
+
+struct TorqueRecordHeader {
+  double speed = 0;                   // 1/s
+  double fill = 0;                    // 1, drum loading factor; 0: idling record
+  int slice = 0;                      // paddles in the periodic slice; 0: whole drum
+  int paddles = 0;                    // in the whole drum
+  std::vector<double> paddle_angles;  // rad, of the slice's paddles
+  double paddle_angle_step = 0;       // rad, from one paddle of the drum to the next
+  std::string paddle_handing;
+  std::string seed;
+  std::string material;
+  bool provisional = false;
+  double dt = 0;          // s
+  double dt_over_tc = 0;  // 1, of the stiffest mode
+  double steps_per_turn = 0;
+  double interval_steps = 0;
+  double bulk_density = 0;   // kg/m3
+  double bulk_cohesion = 0;  // Pa
+  double power_lever = 0;    // m
+  double drum_volume = 0;    // m3
+  double mass = 0;           // kg, of the simulated grains
+  double mass_target = 0;    // kg
+  double clearance = 0;      // m
+
+  // What is simulated, times this, is the whole drum.
+  double whole_drum() const { return slice == 0 ? 1 : static_cast<double>(paddles) / slice; }
+};
+
+// Energy accounts of the grains, J; work and dissipation since the start of the rotation.
+struct EnergyAccounts {
+  double work = 0, kinetic = 0, elastic = 0, potential = 0;
+  double dissipated = 0;  // all five mechanisms
+};
+
+struct TorqueRecord {
+  std::string path;
+  TorqueRecordHeader header;
+  int first_turn = 0;  // turns since the start of the rotation when the first whole turn begins
+  int turns = 0;       // whole turns
+  double intervals_per_turn = 0;
+
+  // Signals of the simulated domain, N m, kPhases values a turn.
+  std::array<std::vector<double>, kParts.size()> part;  // in the order of kParts
+  std::vector<double> idle;
+  std::vector<double> gravity;              // torque of gravity on the grains; empty if not recorded
+  std::vector<std::vector<double>> paddle;  // each paddle of a slice; empty for the whole drum
+
+  std::vector<double> overlap_mean;  // 1, kPhases values a turn
+  std::vector<double> overlap_max;   // 1, one value a turn
+  // At the first row that ends at or after the start of each turn and the end of the last one; empty if not recorded.
+  std::vector<EnergyAccounts> energy;
+
+  double first_grains = 0, last_grains = 0;  // number of grains in the first and the last row
+
+  // Sum of paddles, stems and shaft.
+  std::vector<double> rotor() const;
+};
+
+TorqueRecord read_torque_record(const std::string& path);
+
+}  // namespace vielto
