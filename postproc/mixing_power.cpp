@@ -37,7 +37,8 @@ AveragedTurns steady_turns(const TorqueRecord& record, const Signal& signal, int
   const SteadyPart part = find_steady_part(signal, kPhases, asked);
   const auto refuse = [&](const std::string& why, int more) {
     throw BadInput(record.path, 0,
-                   fmt::format("has {} whole turns{}; {} steady ones are asked for", record.turns, why, asked),
+                   fmt::format("has {} whole turn{}{}, and {} steady ones are asked for", record.turns,
+                               record.turns == 1 ? "" : "s", why, asked),
                    fmt::format("run at least {} more", more));
   };
   double mean = 0;
@@ -49,11 +50,10 @@ AveragedTurns steady_turns(const TorqueRecord& record, const Signal& signal, int
       refuse("", asked - record.turns);
       break;
     case Steadiness::start_up_reaches_limit:
-      refuse(fmt::format(", and the start-up still shows in turn {}", record.first_turn + part.first), part.first + 1);
+      refuse(fmt::format(", the start-up still shows in turn {}", record.first_turn + part.first), part.first + 1);
       break;
     case Steadiness::trend:
-      refuse(fmt::format(", and the last {} still drift by {:+.2g} % a turn", part.count, 100 * part.slope / mean),
-             asked);
+      refuse(fmt::format(", the last {} still drift by {:+.2g} % a turn", part.count, 100 * part.slope / mean), asked);
       break;
     case Steadiness::steady:
       break;
@@ -67,7 +67,8 @@ void check_idle(const TorqueRecord& record, const AveragedTurns& turns) {
                    "run the case with its idling model, or leave --idle out");
 }
 
-RunQuality run_quality(const TorqueRecord& r, const AveragedTurns& turns, const MeanUncertainty& torque) {
+RunQuality run_quality(const TorqueRecord& r, const AveragedTurns& turns, const MeanUncertainty& torque,
+                       const ShaftCurves& curves) {
   RunQuality q;
   q.dt_over_tc = r.header.dt_over_tc;
   q.overlap_mean = mean_over(r.overlap_mean, turns).mean;
@@ -109,6 +110,9 @@ RunQuality run_quality(const TorqueRecord& r, const AveragedTurns& turns, const 
     q.notes.push_back(
         fmt::format("only {:.1f} effective samples: the uncertainty is itself uncertain, average more turns",
                     torque.effective_samples));
+  if (curves.ripple_noise > 0.5 * curves.ripple)
+    q.notes.push_back(fmt::format("the torque ripple is mostly noise ({:.2g} of {:.2g}): average more turns",
+                                  curves.ripple_noise, curves.ripple));
   if (r.intervals_per_turn < kPhases)
     q.notes.push_back(
         fmt::format("{:.3g} rows a turn for {} phases: the ripple is smoothed", r.intervals_per_turn, kPhases));
@@ -166,7 +170,7 @@ MixingPower mixing_power(const TorqueRecord& loaded, const TorqueRecord* idle, i
                            h.speed >= ThesisEquation::low_speed && h.speed <= ThesisEquation::high_speed;
   result.relative_gap = power / result.thesis_power - 1;
   result.curves = shaft_curves(loaded, averaged.first, averaged.count);
-  result.quality = run_quality(loaded, averaged, result.torque);
+  result.quality = run_quality(loaded, averaged, result.torque, result.curves);
   return result;
 }
 

@@ -105,7 +105,10 @@ ShaftCurves shaft_curves(const TorqueRecord& record, int first, int count) {
   double squares = 0;
   for (const double r : without) squares += (r - mean) * (r - mean);
   curves.ripple_u = std::sqrt((n - 1) / n * squares);
-  curves.ripple_noise = (n - 1) * (mean - curves.ripple);
+  double noise = 0;
+  for (const double u : curves.rotor_u) noise += u * u / kPhases;
+  const double torque = std::accumulate(curves.rotor.begin(), curves.rotor.end(), 0.0) / kPhases;
+  curves.ripple_noise = std::sqrt(noise) / std::fabs(torque);
   return curves;
 }
 

@@ -7,9 +7,9 @@
 //   T(phi) = sum_{i<N} t(phi + i step) + (N/k) (stems + shaft of the slice)(phi).
 // For the whole drum T is the recorded rotor torque. Curves hold kPhases means; between them, linear in the angle.
 //
-// Ripple: standard deviation over mean of the turn-averaged T within a turn. Its standard uncertainty and the part that
-// is left-over noise (its bias) are jackknife estimates, one turn left out at a time (Efron and Tibshirani 1993,
-// chapter 11).
+// Ripple: standard deviation over mean of the turn-averaged T within a turn. Its standard uncertainty is the
+// jackknife's, one turn left out at a time (Efron and Tibshirani 1993, chapter 11). The noise that few turns leave in T
+// adds to it: without, it would be sqrt(ripple^2 - ripple_noise^2).
 #pragma once
 
 #include <vector>
@@ -22,8 +22,9 @@ struct ShaftCurves {
   std::vector<double> paddle;  // t(theta), N m; empty for the whole drum
   // Of the whole drum against phi, N m.
   std::vector<double> paddles, stems, shaft, drum, rotor;
-  std::vector<double> rotor_u;                        // standard uncertainty, from the spread between turns
-  double ripple = 0, ripple_u = 0, ripple_noise = 0;  // 1
+  std::vector<double> rotor_u;      // standard uncertainty, from the spread between turns
+  double ripple = 0, ripple_u = 0;  // 1
+  double ripple_noise = 0;          // root mean square of rotor_u over the mean of the rotor, 1
 };
 
 // Over `count` >= 2 turns of the record from its turn `first` on.
