@@ -68,7 +68,7 @@ class NormalModel<VIELTO> : public NormalModelBase {
   // the normal spring is linear
   double stressStrainExponent() { return 1.; }
 
-  void surfacesIntersect(SurfacesIntersectData& sidata, ForceData& i_forces, ForceData& j_forces) {
+  VIELTO_INLINE void surfacesIntersect(SurfacesIntersectData& sidata, ForceData& i_forces, ForceData& j_forces) {
     if (sidata.contact_flags) *sidata.contact_flags |= CONTACT_NORMAL_MODEL;
     const double radj = sidata.is_wall ? wallRadiusFactor_ * sidata.radi : sidata.radj;
     const vielto::Stiffness s =

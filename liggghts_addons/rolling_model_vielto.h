@@ -48,7 +48,7 @@ class RollingModel<ROLLING_VIELTO> : public RollingModelBase {
 
   void connectToProperties(PropertyRegistry&) { pairs_.read(lmp); }
 
-  void surfacesIntersect(SurfacesIntersectData& sidata, ForceData& i_forces, ForceData& j_forces) {
+  VIELTO_INLINE void surfacesIntersect(SurfacesIntersectData& sidata, ForceData& i_forces, ForceData& j_forces) {
     using vielto::Vec;
     if (sidata.contact_flags) *sidata.contact_flags |= CONTACT_ROLLING_MODEL;
     const vielto::Pair& pair = pairs_(sidata.itype, sidata.jtype);

@@ -44,7 +44,7 @@ class TangentialModel<TANGENTIAL_VIELTO> : public TangentialModelBase {
 
   void connectToProperties(PropertyRegistry&) { pairs_.read(lmp); }
 
-  void surfacesIntersect(const SurfacesIntersectData& sidata, ForceData& i_forces, ForceData& j_forces) {
+  VIELTO_INLINE void surfacesIntersect(const SurfacesIntersectData& sidata, ForceData& i_forces, ForceData& j_forces) {
     using vielto::Vec;
     if (sidata.contact_flags) *sidata.contact_flags |= CONTACT_TANGENTIAL_MODEL;
     const Vec n = {sidata.en[0], sidata.en[1], sidata.en[2]};

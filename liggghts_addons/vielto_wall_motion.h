@@ -43,9 +43,10 @@ class WallMotion : protected LAMMPS_NS::Pointers {
       stress_ = dynamic_cast<LAMMPS_NS::MeshModuleStress*>(stressOf_->get_module("stress"));
     }
     if (!stress_ || !stress_->trackStress()) return;
-    double none[3] = {0, 0, 0};
-    double torque[3] = {couple.x, couple.y, couple.z};
-    stress_->add_global_external_contribution(none, torque);
+    double* const total = stress_->torque_total_ptr();
+    total[0] += couple.x;
+    total[1] += couple.y;
+    total[2] += couple.z;
   }
 
  private:

@@ -1,0 +1,1 @@
+// None: the benchmark is cohesionless.

@@ -1,0 +1,3 @@
+// ViElTo and its stock peer.
+#include "tangential_model_history.h"
+#include "tangential_model_vielto.h"

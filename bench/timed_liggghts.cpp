@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// liggghts for the benchmark: ViElTo and the stock law with the same ingredients, instantiated in one program with the
+// same flags, each with clocks around its pair loop and its wall contacts. Prints one line `TIMED {...}` at the end.
+// clang-format off
+#include <mpi.h>
+#include <x86intrin.h>
+#include <stdio.h>
+#include "lammps.h"
+#include "atom.h"
+#include "comm.h"
+#include "domain.h"
+#include "error.h"
+#include "force.h"
+#include "input.h"
+#include "memory.h"
+#include "modify.h"
+#include "neigh_list.h"
+#include "neighbor.h"
+#include "update.h"
+#include "fix_insert_stream.h"
+#include "global_properties.h"
+#include "fix_mesh_surface.h"
+#include "contact_models.h"
+#include "pair_gran_base.h"
+#include "fix_wall_gran_base.h"
+#include "vielto_register.h"
+// clang-format on
+
+using namespace LAMMPS_NS;
+using namespace LIGGGHTS;
+using namespace LIGGGHTS::ContactModels;
+
+namespace {
+
+struct Clocks {
+  unsigned long long pairTicks, wallTicks;
+  double pairContacts, wallContacts;
+  long steps;
+};
+Clocks clocks = {};
+bool counting = false;  // from the command `bench_start` on
+
+// Both laws pay the same for the clocks; the contacts are counted outside them.
+template <class Style>
+class TimedPair : public PairStyles::Granular<ContactModel<Style>> {
+ public:
+  TimedPair(LAMMPS* lmp, PairGran* parent, int64_t hash)
+      : PairStyles::Granular<ContactModel<Style>>(lmp, parent, hash), atom_(lmp->atom) {}
+
+  void compute_force(PairGran* pg, int eflag, int vflag, int addflag) override {
+    const unsigned long long start = __rdtsc();
+    PairStyles::Granular<ContactModel<Style>>::compute_force(pg, eflag, vflag, addflag);
+    if (!counting) return;
+    clocks.pairTicks += __rdtsc() - start;
+    clocks.steps++;
+    if (clocks.steps % 50 == 0) clocks.pairContacts += 50.0 * contacts(pg);
+  }
+
+ private:
+  int contacts(PairGran* pg) const {
+    int n = 0;
+    for (int ii = 0; ii < pg->list->inum; ii++) {
+      const int i = pg->list->ilist[ii];
+      for (int jj = 0; jj < pg->list->numneigh[i]; jj++) {
+        const int j = pg->list->firstneigh[i][jj] & NEIGHMASK;
+        double rsq = 0;
+        for (int d = 0; d < 3; d++) rsq += (atom_->x[i][d] - atom_->x[j][d]) * (atom_->x[i][d] - atom_->x[j][d]);
+        const double sum = atom_->radius[i] + atom_->radius[j];
+        n += rsq < sum * sum;
+      }
+    }
+    return n;
+  }
+  Atom* atom_;
+};
+
+template <class Style>
+class TimedWall : public Walls::Granular<ContactModel<Style>> {
+ public:
+  TimedWall(LAMMPS* lmp, FixWallGran* parent, int64_t hash)
+      : Walls::Granular<ContactModel<Style>>(lmp, parent, hash) {}
+
+  void compute_force(FixWallGran* wg, SurfacesIntersectData& sidata, bool intersectflag, double* vwall,
+                     FixMeshSurface* fix_mesh, int iMesh, TriMesh* mesh, int iTri) override {
+    const unsigned long long start = __rdtsc();
+    Walls::Granular<ContactModel<Style>>::compute_force(wg, sidata, intersectflag, vwall, fix_mesh, iMesh, mesh, iTri);
+    if (!counting) return;
+    clocks.wallTicks += __rdtsc() - start;
+    clocks.wallContacts += intersectflag;
+  }
+};
+
+template <class Style>
+PairStyles::IGranularPairStyle* make_pair(LAMMPS* lmp, PairGran* parent, int64_t hash) {
+  return new TimedPair<Style>(lmp, parent, hash);
+}
+
+template <class Style>
+Walls::IGranularWall* make_wall(LAMMPS* lmp, FixWallGran* parent, int64_t hash) {
+  return new TimedWall<Style>(lmp, parent, hash);
+}
+
+// The registries warn about each replacement on standard error; here it is wanted.
+template <class Style>
+void replace() {
+  PairStyles::Factory::instance().addStyle("gran", static_cast<int>(Style::HASHCODE), &make_pair<Style>);
+  Walls::Factory::instance().addStyle("gran", static_cast<int>(Style::HASHCODE), &make_wall<Style>);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  MPI_Init(&argc, &argv);
+  double seconds = 0;
+  {
+    LAMMPS lammps(argc, argv, MPI_COMM_WORLD);
+    vielto::install(&lammps);
+    // after LIGGGHTS has registered its own, which would replace ours
+    replace<GranStyle<VIELTO, TANGENTIAL_VIELTO, COHESION_OFF, ROLLING_VIELTO, SURFACE_DEFAULT>>();
+    replace<GranStyle<HOOKE_STIFFNESS, TANGENTIAL_HISTORY, COHESION_OFF, ROLLING_EPSD2, SURFACE_DEFAULT>>();
+    lammps.input->file();  // fills the drum and lets the bed get going
+    counting = true;
+    const unsigned long long ticks = __rdtsc();
+    const double begin = MPI_Wtime();
+    lammps.input->one("run ${timedSteps}");
+    seconds = MPI_Wtime() - begin;
+    const double tick = seconds / static_cast<double>(__rdtsc() - ticks);
+    if (lammps.comm->me == 0)
+      printf("TIMED {\"steps\": %ld, \"grains\": %.0f, \"run_s\": %.6g, \"pair_s\": %.6g, \"wall_s\": %.6g, "
+             "\"pair_contacts\": %.6g, \"wall_contacts\": %.6g}\n",
+             clocks.steps, static_cast<double>(lammps.atom->natoms), seconds, tick * static_cast<double>(clocks.pairTicks),
+             tick * static_cast<double>(clocks.wallTicks), clocks.pairContacts / static_cast<double>(clocks.steps),
+             clocks.wallContacts / static_cast<double>(clocks.steps));
+  }
+  MPI_Finalize();
+  return 0;
+}
