@@ -112,6 +112,8 @@ TEST_F(GeometryCommand, RefusesBadInputWithOneLineAndLeavesNoFolder) {
   expect_refusal(make(kMixer + " --set clearance"), "NAME=VALUE");
   expect_refusal(make(kMixer + " --set clearance=wide"), "wide");
   expect_refusal(make(kMixer + " --set drumSegments=12"), "drumSegments");
+  expect_refusal(run("env -u DISPLAY " + kVielto + " geometry " + kMixer + " --out " + (folder / "mesh").string() + " --picture x.png"),
+                 "display");
   EXPECT_FALSE(fs::exists(folder / "mesh"));
   EXPECT_EQ(run(kVielto + " geometry " + kMixer).status, 2);  // where to?
   EXPECT_EQ(run(kVielto + " geometry").status, 2);

@@ -3,6 +3,7 @@
 // vielto geometry --check FILE.stl [--closed]                                     measures one
 #include <fmt/format.h>
 
+#include <cstdlib>
 #include <memory>
 
 #include "bad_input.h"
@@ -30,6 +31,8 @@ void check(const Options& o) {
 }
 
 void make(const Options& o) {
+  if (!o.picture.empty() && std::getenv("DISPLAY") == nullptr)
+    throw BadInput("--picture " + o.picture, 0, "cannot be drawn without a display", "run the command under 'xvfb-run -a'");
   ParFile file = ParFile::read(o.par_file);
   for (const std::string& setting : o.settings) {
     const auto equals = setting.find('=');

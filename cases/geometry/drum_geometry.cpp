@@ -11,7 +11,7 @@ namespace vielto {
 RigGeometry drum_geometry(GeometryInput& input) {
   const double radius = input.positive("drumDiameter") / 2;
   const double length = input.positive("drumLength");
-  const int segments = input.count("drumSegments", 3);
+  const int segments = input.count("drumSegments", 3, 360);
 
   auto circle = arc(radius, 0, 2 * kPi, segments);
   std::reverse(circle.begin(), circle.end());  // normals inward

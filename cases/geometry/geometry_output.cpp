@@ -127,7 +127,6 @@ void write_picture(const RigGeometry& geometry, const std::string& path) {
   renderer->GetActiveCamera()->SetFocalPoint(0, 0, 0);
   renderer->GetActiveCamera()->SetViewUp(0, 0, 1);
   renderer->ResetCamera();
-  renderer->GetActiveCamera()->Zoom(1.1);
   vtkNew<vtkRenderWindow> window;
   window->SetOffScreenRendering(1);
   window->SetMultiSamples(8);

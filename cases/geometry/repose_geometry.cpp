@@ -11,10 +11,10 @@ namespace vielto {
 RigGeometry repose_geometry(GeometryInput& input) {
   const double diameter = input.positive("cylinderDiameter");
   const double height = input.positive("cylinderHeight");
-  const int segments = input.count("cylinderSegments", 3);
+  const int segments = input.count("cylinderSegments", 3, 360);
   const std::string& shape = input.choice("baseShape", {"square", "disc"});
   const double base_width = input.positive("baseWidth");
-  const int base_segments = input.count("baseSegments", 3);
+  const int base_segments = input.count("baseSegments", 3, 360);
   if (base_width * std::cos(kPi / base_segments) <= diameter)
     input.refuse("baseWidth", "the base does not carry the cylinder", "state a baseWidth well above cylinderDiameter");
 

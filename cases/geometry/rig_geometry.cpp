@@ -17,27 +17,27 @@ double GeometryInput::number(const std::string& name) {
 
 double GeometryInput::positive(const std::string& name) {
   const double value = number(name);
-  if (value <= 0) refuse(name, fmt::format("'{}' is {}", name, value), "state a value above 0");
+  if (value <= 0) refuse(name, "not above 0", "state a value above 0");
   return value;
 }
 
 double GeometryInput::not_negative(const std::string& name) {
   const double value = number(name);
-  if (value < 0) refuse(name, fmt::format("'{}' is {}", name, value), "state a value of 0 or more");
+  if (value < 0) refuse(name, "negative", "state a value of 0 or more");
   return value;
 }
 
-int GeometryInput::count(const std::string& name, int at_least) {
+int GeometryInput::count(const std::string& name, int least, int most) {
   const int value = file_.integer(name);
   used_.push_back({name, file_.text(name), false});
-  if (value < at_least) refuse(name, fmt::format("'{}' is {}", name, value), fmt::format("state {} or more", at_least));
+  if (value < least || value > most) refuse(name, "out of range", fmt::format("state {} to {}", least, most));
   return value;
 }
 
 const std::string& GeometryInput::choice(const std::string& name, const std::vector<std::string>& choices) {
   const std::string& value = file_.text(name);
   if (std::find(choices.begin(), choices.end(), value) == choices.end())
-    refuse(name, fmt::format("'{}' is '{}'", name, value), fmt::format("state one of: {}", fmt::join(choices, ", ")));
+    refuse(name, "unknown", fmt::format("state one of: {}", fmt::join(choices, ", ")));
   used_.push_back({name, value, true});
   return value;
 }
@@ -46,7 +46,7 @@ void GeometryInput::refuse(const std::string& name, const std::string& what, con
   int line = 0;
   for (const Parameter& p : file_.all())
     if (p.name == name) line = p.line;
-  throw BadInput(file_.path(), line, what, mend);
+  throw BadInput(file_.path(), line, fmt::format("'{}' {}: {}", name, file_.text(name), what), mend);
 }
 
 RigGeometry rig_geometry(GeometryInput& input) {

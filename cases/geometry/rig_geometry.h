@@ -22,15 +22,15 @@ class GeometryInput {
 
   explicit GeometryInput(const ParFile& file) : file_(file) {}
 
-  // Errors: BadInput for a missing or malformed value, one outside (0, inf), [0, inf) or of a count below `at_least`,
-  // or a text that is not among `choices`.
+  // Errors: BadInput for a missing or malformed value, one outside (0, inf), [0, inf) a count outside
+  // least..most, or a text that is not among `choices`.
   double positive(const std::string& name);
   double not_negative(const std::string& name);
   double number(const std::string& name);
-  int count(const std::string& name, int at_least);
+  int count(const std::string& name, int least, int most);
   const std::string& choice(const std::string& name, const std::vector<std::string>& choices);
 
-  // Throws BadInput at the parameter's line.
+  // Throws BadInput at the parameter's line, naming it and its value.
   [[noreturn]] void refuse(const std::string& name, const std::string& what, const std::string& mend) const;
 
   const std::string& path() const { return file_.path(); }
