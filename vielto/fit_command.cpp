@@ -65,9 +65,8 @@ void fit(const FitOptions& o) {
   for (const std::string& path : o.tables) tables.push_back(read_reduced_table(path));
 
   const PowerFit result = fit_power(request, power_data(tables, mixers, materials));
-  const std::string json = power_fit_json(result).dump(2) + "\n";
-  if (!o.out.empty()) write_whole_file(o.out, json);
-  std::fputs((o.json ? json : power_fit_text(result)).c_str(), stdout);
+  if (!o.out.empty()) write_whole_file(o.out, power_fit_json(result).dump(2) + "\n");
+  std::fputs((o.json ? power_fit_json(result).dump(2) + "\n" : power_fit_text(result)).c_str(), stdout);
 }
 
 }  // namespace

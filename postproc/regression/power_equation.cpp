@@ -7,6 +7,7 @@
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "bad_input.h"
 #include "numbers.h"
@@ -23,19 +24,31 @@ const BulkMaterial* find_material(const std::vector<BulkMaterial>& materials, co
   return nullptr;
 }
 
+bool is_power(const Observation& row) { return row.apparatus == "mixer" && row.observable == "power"; }
+
+bool is_grain(const BulkMaterial& material) { return material.bulk_density && material.bulk_cohesion; }
+
+// The one grain that is given, if the power rows are all of one material: it stands for it, whatever its name there.
+const BulkMaterial* only_grain(const std::vector<ReducedTable>& tables, const std::vector<BulkMaterial>& materials) {
+  std::set<std::string> names;
+  for (const ReducedTable& table : tables)
+    for (const Observation& row : table.rows)
+      if (is_power(row)) names.insert(row.material);
+  if (names.size() != 1 || std::count_if(materials.begin(), materials.end(), is_grain) != 1) return nullptr;
+  return &*std::find_if(materials.begin(), materials.end(), is_grain);
+}
+
 const BulkMaterial& grain_of(const Observation& row, const std::vector<BulkMaterial>& materials,
-                             const std::string& path, int line) {
-  const BulkMaterial* found = find_material(materials, row.material);
-  if (!found && materials.size() == 1 && (materials[0].name.empty() || row.material.empty())) found = &materials[0];
-  if (!found)
+                             const BulkMaterial* only, const std::string& path, int line) {
+  if (const BulkMaterial* own = find_material(materials, row.material)) {
+    if (is_grain(*own)) return *own;
     throw BadInput(path, line, "material",
-                   row.material.empty() ? "is empty" : fmt::format("no card of '{}' is given", row.material),
-                   row.material.empty() ? "name the material" : fmt::format("add --material {}.par", row.material));
-  if (!found->bulk_density || !found->bulk_cohesion)
-    throw BadInput(path, line, "material",
-                   fmt::format("the card of '{}' does not state bulkDensity and bulkCohesion", found->name),
+                   fmt::format("the card of '{}' does not state bulkDensity and bulkCohesion", own->name),
                    "add both to the card");
-  return *found;
+  }
+  if (only) return *only;
+  throw BadInput(path, line, "material", fmt::format("no card of '{}' is given", row.material),
+                 "add --material with the card of that name");
 }
 
 FittedRange range_of(const json& j) { return {j.at(0).get<double>(), j.at(1).get<double>()}; }
@@ -70,6 +83,7 @@ double power_scale(PowerNumber number, double speed, const MixerDimensions& mixe
 PowerData power_data(const std::vector<ReducedTable>& tables, const std::vector<MixerDimensions>& mixers,
                      const std::vector<BulkMaterial>& materials) {
   PowerData data;
+  const BulkMaterial* only = only_grain(tables, materials);
   std::vector<Eigen::Triplet<double>> covariance;
   for (std::size_t t = 0; t < tables.size(); ++t) {
     const ReducedTable& table = tables[t];
@@ -78,7 +92,7 @@ PowerData power_data(const std::vector<ReducedTable>& tables, const std::vector<
     bool any = false;
     for (std::size_t i = 0; i < table.rows.size(); ++i) {
       const Observation& o = table.rows[i];
-      if (o.apparatus != "mixer" || o.observable != "power") continue;
+      if (!is_power(o)) continue;
       any = true;
       const int line = table.lines[i];
       const auto need = [&](const char* column, bool good) {
@@ -88,7 +102,7 @@ PowerData power_data(const std::vector<ReducedTable>& tables, const std::vector<
       need("speed", o.speed.value_or(0) > 0);
       need("fill", o.fill.value_or(0) > 0);
       need("value", o.value > 0);
-      const BulkMaterial& grain = grain_of(o, materials, table.path, line);
+      const BulkMaterial& grain = grain_of(o, materials, only, table.path, line);
       const PowerRow row{table.path, line,
                          o,          mixer,
                          grain,      groups_of(*o.fill, *o.speed, mixer, grain, find_material(materials, o.wall))};
@@ -102,6 +116,11 @@ PowerData power_data(const std::vector<ReducedTable>& tables, const std::vector<
         if (index[v.row()] >= 0 && index[v.col()] >= 0)
           covariance.emplace_back(index[v.row()], index[v.col()], v.value());
     if (!table.covariance_path.empty()) data.covariance_paths.push_back(table.covariance_path);
+  }
+  if (only) {
+    const std::string& name = (data.fit.empty() ? data.check : data.fit).front().observation.material;
+    if (!name.empty() && !only->name.empty() && name != only->name)
+      data.notes.push_back(fmt::format("the rows name the material '{}', the card is '{}'", name, only->name));
   }
   const int n = static_cast<int>(data.fit.size());
   data.covariance.resize(n, n);

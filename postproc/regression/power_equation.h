@@ -36,10 +36,11 @@ struct PowerData {
   std::vector<PowerRow> fit, check;        // by role
   Eigen::SparseMatrix<double> covariance;  // of the power of the fit rows, W^2
   std::vector<std::string> covariance_paths;
+  std::vector<std::string> notes;
 };
 
 // The `power` rows of the tables, table i in mixer i (or all in the one mixer). A row takes the material and the wall
-// named in it; a material without name stands for any.
+// named in it; where only one grain is given, it stands for the one material of the rows under any name (with a note).
 // Errors: BadInput for a row without speed, fill or a power above 0, or whose material is not among `materials` or does
 // not state bulkDensity and bulkCohesion; a table without power rows.
 PowerData power_data(const std::vector<ReducedTable>& tables, const std::vector<MixerDimensions>& mixers,

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <set>
 #include <stdexcept>
+#include <utility>
 
 #include "bad_input.h"
 #include "numbers.h"
@@ -67,6 +68,7 @@ void note_weak_contrast(PowerFit& fit) {
 
 void add_notes(PowerFit& fit) {
   const PowerLawFit& law = fit.law;
+  fit.notes = fit.data.notes;
   for (const int g : fit.merged)
     fit.notes.push_back(fmt::format("{} is the same in every row: merged into B0", kGroupNames[g]));
   for (const Alias& alias : law.aliases) {
@@ -102,10 +104,11 @@ void add_notes(PowerFit& fit) {
 
 }  // namespace
 
-PowerFit fit_power(const PowerFitRequest& request, const PowerData& data) {
+PowerFit fit_power(const PowerFitRequest& request, PowerData all_rows) {
   PowerFit fit;
   fit.request = request;
-  fit.data = data;
+  fit.data = std::move(all_rows);
+  const PowerData& data = fit.data;
   const std::vector<PowerRow>& rows = data.fit;
   if (rows.empty())
     throw BadInput(data.check.front().file, 0, "holds no power row of role fit", "give role fit to the rows to use");

@@ -32,7 +32,7 @@ struct PowerFit {
 };
 
 // Errors: BadInput (naming the first table) for rows that do not allow the fit or lack a group that is asked for.
-PowerFit fit_power(const PowerFitRequest& request, const PowerData& data);
+PowerFit fit_power(const PowerFitRequest& request, PowerData data);
 
 // The booklet's value of a coefficient or combination of the fit; nothing where the booklet has none.
 std::optional<double> booklet_value(const PowerFit& fit, const Coefficient& coefficient);
