@@ -326,6 +326,7 @@ TorqueRecord read_torque_record(const std::string& path) {
     if (progress.rows() == 1) {
       record.first_turn = std::max(0, static_cast<int>(std::ceil(begin - kSliver)));
       record.first_grains = row[grains];
+      record.start_step = row[columns.at("step")] - end * h.steps_per_turn;
     }
     record.last_grains = row[grains];
     const auto reaches = [&](long phase) {

@@ -58,8 +58,9 @@ struct EnergyAccounts {
 struct TorqueRecord {
   std::string path;
   TorqueRecordHeader header;
-  int first_turn = 0;  // turns since the start of the rotation when the first whole turn begins
-  int turns = 0;       // whole turns
+  int first_turn = 0;     // turns since the start of the rotation when the first whole turn begins
+  int turns = 0;          // whole turns
+  double start_step = 0;  // at which the rotation began
   double intervals_per_turn = 0;
 
   // Signals of the simulated domain, N m, kPhases values a turn.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// vielto post RUN [--idle IDLERUN]: torque record -> power, numbers, phase curves, observation rows, in RUN/post.
+// vielto post RUN [--idle IDLERUN]: torque record -> power, numbers, phase curves, observation rows, pictures, in
+// RUN/post.
 #include <fmt/format.h>
 
 #include <cstdio>
@@ -12,6 +13,7 @@
 #include "csv.h"
 #include "mixing_power.h"
 #include "mixing_power_output.h"
+#include "picture.h"
 #include "steady_part.h"
 #include "torque_record.h"
 
@@ -23,7 +25,7 @@ namespace fs = std::filesystem;
 struct PostOptions {
   std::string run, idle;
   int turns = kLeastAveragedTurns;
-  bool json = false;
+  bool json = false, pictures = false;
   TestLabel label{"", "fit", "", {}};
 };
 
@@ -34,6 +36,7 @@ fs::path record_path(const std::string& run) {
 }
 
 void post(const PostOptions& options) {
+  if (options.pictures) need_display();
   const fs::path path = record_path(options.run);
   const TorqueRecord loaded = read_torque_record(path.string());
   std::optional<TorqueRecord> idle;
@@ -51,6 +54,13 @@ void post(const PostOptions& options) {
   write_whole_file((folder / "phase.csv").string(), phase_csv(power));
   write_whole_file((folder / "table.txt").string(), table);
   write_whole_file((folder / "power.json").string(), json);
+  if (options.pictures) {
+    draw_torque(loaded, power, (folder / "torque.png").string());
+    const std::string run = path.parent_path().string();
+    if (!draw_grains(run, loaded, (folder / "grains.png").string()))
+      std::fprintf(stderr, "vielto: no picture of the grains: %s holds no vtk/*.vtk or no mesh/drum.stl\n",
+                   run.empty() ? "the folder" : run.c_str());
+  }
   for (const std::string& warning : power.quality.warnings)
     std::fprintf(stderr, "vielto: WARNING: %s: %s\n", path.string().c_str(), warning.c_str());
   std::fputs((options.json ? json : table).c_str(), stdout);
@@ -75,6 +85,7 @@ void add_post_command(CLI::App& app) {
   command->add_option("--wall", options->label.wall, "wall, for observations.csv");
   command->add_option("--moisture", options->label.moisture, "moisture (wet basis), for observations.csv")
       ->check(CLI::Range(0.0, 1.0));
+  command->add_flag("--pictures", options->pictures, "also draw post/torque.png and post/grains.png");
   command->add_flag("--json", options->json, "print power.json instead of the table");
   command->callback([options] { post(*options); });
 }

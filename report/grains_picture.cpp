@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include <fmt/format.h>
+#include <vtkActor.h>
+#include <vtkCamera.h>
+#include <vtkColorTransferFunction.h>
+#include <vtkDataArray.h>
+#include <vtkDoubleArray.h>
+#include <vtkGlyph3DMapper.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPolyData.h>
+#include <vtkPolyDataMapper.h>
+#include <vtkPolyDataReader.h>
+#include <vtkProperty.h>
+#include <vtkRenderWindow.h>
+#include <vtkRenderer.h>
+#include <vtkSTLReader.h>
+#include <vtkScalarBarActor.h>
+#include <vtkSphereSource.h>
+#include <vtkTextActor.h>
+#include <vtkTextProperty.h>
+#include <vtkTransform.h>
+#include <vtkTransformPolyDataFilter.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <optional>
+
+#include "bad_input.h"
+#include "picture.h"
+#include "render.h"
+
+namespace vielto {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kWidth = 1600, kHeight = 1000;
+
+struct Dump {
+  fs::path path;
+  long step = -1;
+};
+
+// The dump of the latest step: NAME_STEP.vtk; LIGGGHTS writes the box beside it as NAME_boundingBox_STEP.vtk.
+std::optional<Dump> last_dump(const fs::path& folder) {
+  std::optional<Dump> last;
+  std::error_code missing;
+  for (const auto& file : fs::directory_iterator(folder, missing)) {
+    const std::string name = file.path().stem().string();
+    if (file.path().extension() != ".vtk" || name.find("boundingBox") != std::string::npos) continue;
+    const auto digits = name.find_last_not_of("0123456789") + 1;
+    if (digits == name.size()) continue;
+    const long step = std::stol(name.substr(digits));
+    if (!last || step > last->step) last = Dump{file.path(), step};
+  }
+  return last;
+}
+
+// Grains with the point data `speed`, m/s, and `diameter`, m.
+vtkNew<vtkPolyData> read_grains(const fs::path& path) {
+  vtkNew<vtkPolyDataReader> reader;
+  reader->SetFileName(path.c_str());
+  reader->ReadAllFieldsOn();
+  if (reader->IsFilePolyData()) reader->Update();
+  vtkPointData* data = reader->GetOutput()->GetPointData();
+  vtkDataArray* const radius = data->GetArray("radius");
+  vtkDataArray* const v = data->GetArray("v");
+  if (!radius || !v || v->GetNumberOfComponents() != 3)
+    throw BadInput(path.string(), 0, "holds no grains with radius and velocity",
+                   "dump with 'custom/vtk ... id type x y z vx vy vz radius'");
+  vtkNew<vtkDoubleArray> speed, diameter;
+  speed->SetName("speed");
+  diameter->SetName("diameter");
+  for (vtkIdType i = 0; i < radius->GetNumberOfTuples(); ++i) {
+    const double* u = v->GetTuple3(i);
+    speed->InsertNextValue(std::hypot(u[0], u[1], u[2]));
+    diameter->InsertNextValue(2 * radius->GetTuple1(i));
+  }
+  vtkNew<vtkPolyData> grains;
+  grains->SetPoints(reader->GetOutput()->GetPoints());
+  grains->GetPointData()->AddArray(speed);
+  grains->GetPointData()->AddArray(diameter);
+  return grains;
+}
+
+// From dark blue over green to yellow, even in lightness: readable in grey and with any colour vision.
+vtkNew<vtkColorTransferFunction> speed_colours(double most) {
+  vtkNew<vtkColorTransferFunction> colours;
+  colours->SetColorSpaceToLab();
+  colours->AddRGBPoint(0.00 * most, 0.267, 0.005, 0.329);
+  colours->AddRGBPoint(0.25 * most, 0.229, 0.322, 0.546);
+  colours->AddRGBPoint(0.50 * most, 0.128, 0.567, 0.551);
+  colours->AddRGBPoint(0.75 * most, 0.369, 0.789, 0.383);
+  colours->AddRGBPoint(1.00 * most, 0.993, 0.906, 0.144);
+  return colours;
+}
+
+vtkNew<vtkActor> part_actor(const fs::path& path, double degrees, bool drum) {
+  vtkNew<vtkSTLReader> reader;
+  reader->SetFileName(path.c_str());
+  vtkNew<vtkTransform> rotation;
+  rotation->RotateX(degrees);
+  vtkNew<vtkTransformPolyDataFilter> turn;
+  turn->SetTransform(rotation);
+  turn->SetInputConnection(reader->GetOutputPort());
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputConnection(turn->GetOutputPort());
+  vtkNew<vtkActor> actor;
+  actor->SetMapper(mapper);
+  actor->GetProperty()->SetColor(0.72, 0.74, 0.78);
+  actor->GetProperty()->SetAmbient(0.25);
+  if (drum) actor->GetProperty()->SetOpacity(0.18);
+  return actor;
+}
+
+vtkNew<vtkTextActor> caption(const std::string& text, int size, double x, double y) {
+  vtkNew<vtkTextActor> actor;
+  actor->SetInput(text.c_str());
+  actor->GetTextProperty()->SetFontSize(size);
+  actor->GetTextProperty()->SetColor(0.1, 0.1, 0.1);
+  actor->SetPosition(x, y);
+  return actor;
+}
+
+}  // namespace
+
+bool draw_grains(const std::string& run, const TorqueRecord& record, const std::string& path) {
+  const auto dump = last_dump(fs::path(run) / "vtk");
+  const fs::path mesh = fs::path(run) / "mesh";
+  if (!dump || !fs::exists(mesh / "drum.stl")) return false;
+  const auto grains = read_grains(dump->path);
+  const double turns =
+      std::max(0.0, (static_cast<double>(dump->step) - record.start_step) / record.header.steps_per_turn);
+
+  vtkNew<vtkRenderer> renderer;
+  renderer->SetBackground(1, 1, 1);
+  for (const auto& file : fs::directory_iterator(mesh)) {
+    if (file.path().extension() != ".stl") continue;
+    const bool drum = file.path().stem() == "drum";
+    renderer->AddActor(part_actor(file.path(), drum ? 0 : 360 * turns, drum));
+  }
+
+  double range[2] = {0, 0};
+  grains->GetPointData()->GetArray("speed")->GetRange(range);
+  const auto colours = speed_colours(range[1] > 0 ? range[1] : 1);
+  vtkNew<vtkSphereSource> sphere;
+  sphere->SetRadius(0.5);
+  sphere->SetThetaResolution(20);
+  sphere->SetPhiResolution(20);
+  vtkNew<vtkGlyph3DMapper> spheres;
+  spheres->SetInputData(grains);
+  spheres->SetSourceConnection(sphere->GetOutputPort());
+  spheres->SetScaleModeToScaleByMagnitude();
+  spheres->SetScaleArray("diameter");
+  spheres->SetScalarModeToUsePointFieldData();
+  spheres->SelectColorArray("speed");
+  spheres->SetLookupTable(colours);
+  vtkNew<vtkActor> actor;
+  actor->SetMapper(spheres);
+  renderer->AddActor(actor);
+
+  vtkNew<vtkScalarBarActor> bar;
+  bar->SetLookupTable(colours);
+  bar->SetTitle("speed / (m/s)");
+  bar->SetNumberOfLabels(6);
+  bar->SetLabelFormat("%.2f");
+  bar->UnconstrainedFontSizeOn();
+  for (vtkTextProperty* text : {bar->GetTitleTextProperty(), bar->GetLabelTextProperty()}) {
+    text->SetColor(0.1, 0.1, 0.1);
+    text->SetFontSize(24);
+    text->ShadowOff();
+    text->ItalicOff();
+    text->BoldOff();
+  }
+  bar->SetPosition(0.87, 0.15);
+  bar->SetWidth(0.11);
+  bar->SetHeight(0.65);
+  renderer->AddActor2D(bar);
+  const TorqueRecordHeader& h = record.header;
+  renderer->AddActor2D(caption("Grains in the mixer, coloured by speed", 34, 40, kHeight - 70));
+  renderer->AddActor2D(caption(
+      fmt::format("{}{}, fill {}, {} 1/s, {}, after {:.2f} turns", h.material, h.provisional ? " (provisional)" : "",
+                  h.fill, h.speed,
+                  h.slice > 0 ? fmt::format("slice of {} of {} paddles", h.slice, h.paddles) : "whole drum", turns),
+      24, 40, kHeight - 110));
+
+  // From the side and a little above, along the shaft's axis for the most part.
+  vtkCamera* camera = renderer->GetActiveCamera();
+  camera->SetPosition(-1, -0.55, 0.35);
+  camera->SetFocalPoint(0, 0, 0);
+  camera->SetViewUp(0, 0, 1);
+  camera->SetViewAngle(25);
+  renderer->ResetCamera();
+  camera->Zoom(1.15);
+  camera->SetWindowCenter(0, 0.08);
+
+  vtkNew<vtkRenderWindow> window;
+  window->SetOffScreenRendering(1);
+  window->SetMultiSamples(0);
+  window->SetAlphaBitPlanes(1);
+  renderer->SetUseDepthPeeling(1);
+  renderer->SetUseFXAA(true);
+  window->SetSize(kWidth, kHeight);
+  window->AddRenderer(renderer);
+  write_png(window, path);
+  return true;
+}
+
+}  // namespace vielto

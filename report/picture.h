@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Pictures for people, drawn with VTK into PNG files. VTK needs a display, even to draw into a file.
+#pragma once
+
+#include <string>
+
+#include "mixing_power.h"
+#include "torque_record.h"
+
+namespace vielto {
+
+// Errors: BadInput if there is no display (VTK would abort the program).
+void need_display();
+
+// Torque of the grains on the whole shaft (slice torque times N/k) over time, its turn means, and the averaged turns
+// shaded. Errors: std::runtime_error if the file cannot be written.
+void draw_torque(const TorqueRecord& record, const MixingPower& power, const std::string& path);
+
+// The grains of the last dump in RUN/vtk (`dump custom/vtk` with v and radius), coloured by speed, in the meshes of
+// RUN/mesh: the drum translucent, every other part turned about the x axis to where the rotor stood. False if there is
+// no dump or no mesh. Errors: BadInput for a dump without radius or velocity; std::runtime_error if the file cannot be
+// written.
+bool draw_grains(const std::string& run, const TorqueRecord& record, const std::string& path);
+
+}  // namespace vielto
