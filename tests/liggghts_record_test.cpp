@@ -17,7 +17,7 @@ double resting_height() { return R - mass() * g / (4 * kn()); }
 // Meshes a and b: level plates side by side, b from x = 0.05 on; gravity down.
 std::string plates(const Liggghts& run, const std::string& settings = "") {
   run.write("a.stl", plate_stl(0.05));
-  run.write("b.stl", plate_stl(0.05, 1, {0.1, 0, 0}));
+  run.write("b.stl", plate_stl(0.05, {0.1, 0, 0}));
   return "fix a all mesh/surface/stress file a.stl type 1 reference_point 0 0 0\n"
          "fix b all mesh/surface/stress file b.stl type 1 reference_point 0.1 0 0\n" +
          fmt::format("fix wall all wall/gran {} mesh n_meshes 2 meshes a b {}\n", vielto_models, settings) +
@@ -181,14 +181,7 @@ TEST(RecordEnergy, ShaftWorkIsDissipationPlusChangeOfEnergy) {
     spheres.push_back({1, 0.004, 1375, {0.009 * (i % 4) - 0.013, 0.009 * (i / 4 % 4) - 0.013, 0.0045 + 0.009 * (i / 16)},
                        {0.1 * std::sin(i), 0.1 * std::cos(2 * i), 0}, {5, 0, 10.0 * std::sin(3 * i)}});
   Liggghts run;
-  // a tray: floor and four sides, all one mesh, turning about the vertical axis
-  std::string stl = plate_stl(0.02);
-  for (const Vec& side : {Vec(0.02, 0, 0.02), Vec(-0.02, 0, 0.02)}) stl += plate_stl(0.02, 1, side, Vec::UnitY(), Vec::UnitZ());
-  for (const Vec& side : {Vec(0, 0.02, 0.02), Vec(0, -0.02, 0.02)}) stl += plate_stl(0.02, 1, side, Vec::UnitZ(), Vec::UnitX());
-  std::string one = stl;
-  for (const char* word : {"endsolid plate\nsolid plate\n"})
-    for (std::size_t at = one.find(word); at != std::string::npos; at = one.find(word)) one.erase(at, std::string(word).size());
-  run.write("tray.stl", one);
+  run.write("tray.stl", tray_stl(0.02));
   run.script = head(run, spheres, {Material()}, 0.3) +
                "fix tray all mesh/surface/stress file tray.stl type 1 reference_point 0 0 0\n" +
                fmt::format("fix wall all wall/gran {} mesh n_meshes 1 meshes tray\n", vielto_models) +

@@ -83,15 +83,23 @@ class Liggghts {
   // Starts the program on `script`; `options` is appended to its command line.
   Outcome start(int ranks = 1, Program program = Program::ours, const std::string& options = "") {
     write("in.test", script);
+    return shell(fmt::format("cd '{}' && {} -in in.test {}", folder.string(), command(ranks, program), options));
+  }
+
+  // The program's command line up to its own options.
+  static std::string command(int ranks = 1, Program program = Program::ours) {
     // a single process needs no transport between processes: starts in 0.03 s instead of 0.3 s
     const std::string alone = "OMPI_MCA_ess_singleton_isolated=1 OMPI_MCA_pml=ob1 OMPI_MCA_btl=self ";
     const std::string mpirun = fmt::format(
         "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 '{}' --oversubscribe -np {} ", VIELTO_MPIEXEC, ranks);
     const std::string preload = program == Program::stock ? "env LD_PRELOAD='" VIELTO_LIBRARY "' " : "";
     const std::string binary = program == Program::stock ? VIELTO_STOCK_LIGGGHTS : VIELTO_BIN_DIR "/liggghts";
-    const std::string command = fmt::format("cd '{}' && {}{}'{}' -in in.test {} > out.txt 2>&1", folder.string(),
-                                            ranks > 1 ? mpirun : alone, preload, binary, options);
-    const int code = std::system(command.c_str());
+    return fmt::format("{}{}'{}'", ranks > 1 ? mpirun : alone, preload, binary);
+  }
+
+  // Runs a shell command and keeps its text in out.txt of the folder.
+  Outcome shell(const std::string& line) {
+    const int code = std::system(fmt::format("( {} ) > '{}/out.txt' 2>&1", line, folder.string()).c_str());
     Outcome outcome;
     outcome.status = WIFEXITED(code) ? WEXITSTATUS(code) : 128 + WTERMSIG(code);
     outcome.text = read("out.txt");
@@ -263,25 +271,35 @@ inline std::string dump_grains(const std::string& file, long every) {
       file, every, format);
 }
 
-// A flat square in the plane z = 0 with side 2 `half`, as a mesh of two triangles, or of 2 n^2.
-inline std::string plate_stl(double half, int n = 1, const Vec& centre = Vec::Zero(), const Vec& a = Vec::UnitX(),
-                             const Vec& b = Vec::UnitY()) {
-  std::string text = "solid plate\n";
-  const Vec normal = a.cross(b);
-  const auto corner = [&](int i, int j) -> Vec {
-    return centre + half * (2.0 * i / n - 1) * a + half * (2.0 * j / n - 1) * b;
-  };
-  const auto triangle = [&](const Vec& p, const Vec& q, const Vec& r) {
+// One STL solid of flat squares with centre c and half edge vectors a, b (normal a x b), two triangles each.
+struct Square {
+  Vec c, a, b;
+};
+
+inline std::string stl(const std::vector<Square>& squares) {
+  std::string text = "solid mesh\n";
+  const auto triangle = [&](const Vec& normal, const Vec& p, const Vec& q, const Vec& r) {
     text += fmt::format("facet normal {} {} {}\nouter loop\n", normal[0], normal[1], normal[2]);
-    for (const Vec& c : {p, q, r}) text += fmt::format("vertex {:.17g} {:.17g} {:.17g}\n", c[0], c[1], c[2]);
+    for (const Vec& v : {p, q, r}) text += fmt::format("vertex {:.17g} {:.17g} {:.17g}\n", v[0], v[1], v[2]);
     text += "endloop\nendfacet\n";
   };
-  for (int i = 0; i < n; i++)
-    for (int j = 0; j < n; j++) {
-      triangle(corner(i, j), corner(i + 1, j), corner(i + 1, j + 1));
-      triangle(corner(i, j), corner(i + 1, j + 1), corner(i, j + 1));
-    }
-  return text + "endsolid plate\n";
+  for (const Square& s : squares) {
+    const Vec n = s.a.cross(s.b).normalized();
+    triangle(n, s.c - s.a - s.b, s.c + s.a - s.b, s.c + s.a + s.b);
+    triangle(n, s.c - s.a - s.b, s.c + s.a + s.b, s.c - s.a + s.b);
+  }
+  return text + "endsolid mesh\n";
+}
+
+// A level plate with half edge `half`, facing up.
+inline std::string plate_stl(double half, const Vec& centre = Vec::Zero()) {
+  return stl({{centre, half * Vec::UnitX(), half * Vec::UnitY()}});
+}
+
+// An open box standing on z = 0: floor and four sides, `half` wide and high, facing inwards.
+inline std::string tray_stl(double half) {
+  const Vec x = half * Vec::UnitX(), y = half * Vec::UnitY(), z = half * Vec::UnitZ();
+  return stl({{Vec::Zero(), x, y}, {-x + z, y, z}, {x + z, z, y}, {-y + z, z, x}, {y + z, x, z}});
 }
 
 }  // namespace vielto_test

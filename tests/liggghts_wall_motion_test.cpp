@@ -38,7 +38,7 @@ TEST(RidingAPlate, FeelsNoRollingMoment) {
   const double load = mass() * omega * omega * (D - R), u = load / (4 * kn());
   const Sphere s{1, R, 1375, {0, 0, -D + R - u}, {-omega * (D - R + u), 0, 0}, {0, omega, 0}};
   Liggghts run;
-  run.script = head(run, {s}, {m}, 0.2) + mesh_wall(run, plate_stl(0.04, 1, {0, 0, -D})) +
+  run.script = head(run, {s}, {m}, 0.2) + mesh_wall(run, plate_stl(0.04, {0, 0, -D})) +
                fmt::format("fix turn all move/mesh mesh plate rotate origin 0 0 0 axis 0 1 0 period {:.17g}\n", period) +
                dump_grains("states", 100) + fmt::format("run {}\n", std::lround(period / dt));
   run.must();
