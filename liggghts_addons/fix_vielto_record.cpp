@@ -408,7 +408,7 @@ void FixViEltoRecord::open_file() {
   if (!restarted_) write_header(file_);
 }
 
-// Rows written after the restart's step belong to a run that was broken off.
+// Rows written after the restart's step belong to a run that was broken off, and so does a last line without an end.
 void FixViEltoRecord::cut_file() {
   std::ifstream in(path_);
   if (!in)
@@ -416,7 +416,7 @@ void FixViEltoRecord::cut_file() {
   const std::string cut = path_ + ".partial";
   std::ofstream out(cut);
   std::string line;
-  while (std::getline(in, line)) {
+  while (std::getline(in, line) && !in.eof()) {
     const bool row = !line.empty() && line[0] >= '0' && line[0] <= '9';
     if (!row || atoll(line.c_str()) <= update->ntimestep) out << line << '\n';
   }
@@ -445,6 +445,9 @@ double FixViEltoRecord::compute_vector(int n) {
 }
 
 void FixViEltoRecord::write_restart(FILE* fp) {
+  // LIGGGHTS writes the pairs' contact history as it was when the neighbour lists were last made: bring it up to date
+  for (int i = 0; i < modify->nfix; i++)
+    if (strcmp(modify->fix[i]->style, "contacthistory") == 0) modify->fix[i]->setup_pre_exchange();
   const double list[] = {static_cast<double>(start_), work_, overlapMaxEver_, total(tally_.normalDamping),
                          total(tally_.tangentialDamping), total(tally_.sliding), total(tally_.rolling),
                          total(tally_.twisting)};
@@ -468,4 +471,6 @@ void FixViEltoRecord::restart(char* buf) {
     tally_.twisting = list[7];
   }
   restarted_ = true;
+  if ((update->ntimestep - start_) % every_ != 0)
+    vielto::stop_all(lmp, "vielto: this restart lies inside a row of the record; write restarts every so many whole rows");
 }

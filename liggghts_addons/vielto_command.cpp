@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <fstream>
@@ -64,6 +65,44 @@ std::string joined(int narg, char** arg, int from) {
   std::string line;
   for (int i = from; i < narg; i++) line += (i > from ? " " : "") + std::string(arg[i]);
   return line;
+}
+
+// Step in the name of a restart file, N.restart; -1 for another file.
+long long step_of(const fs::path& file) {
+  const std::string name = file.stem().string();
+  if (file.extension() != ".restart" || name.empty() || name.find_first_not_of("0123456789") != std::string::npos) return -1;
+  return atoll(name.c_str());
+}
+
+// Step of the last whole row of a torque record; 0 if there is none.
+long long last_step(const fs::path& record) {
+  std::ifstream in(record);
+  long long step = 0;
+  for (std::string line; std::getline(in, line) && !in.eof();)
+    if (!line.empty() && line[0] >= '0' && line[0] <= '9') step = atoll(line.c_str());
+  return step;
+}
+
+/* The last restart file that is surely whole: the run went on after it and wrote a row. One that was being written when
+   the run was broken off is left alone. */
+std::string newest_restart(const fs::path& partial) {
+  const long long end = last_step(partial / "torque.csv");
+  fs::path newest;
+  if (!fs::exists(partial / "restart")) return "";
+  for (const auto& entry : fs::directory_iterator(partial / "restart"))
+    if (step_of(entry.path()) < end && step_of(entry.path()) > step_of(newest)) newest = entry.path();
+  return newest.string();
+}
+
+// A complete run keeps its last restart file.
+void remove_older_restarts(const fs::path& partial) {
+  std::vector<fs::path> files;
+  if (!fs::exists(partial / "restart")) return;
+  for (const auto& entry : fs::directory_iterator(partial / "restart"))
+    if (step_of(entry.path()) >= 0) files.push_back(entry.path());
+  std::sort(files.begin(), files.end(), [](const auto& a, const auto& b) { return step_of(a) < step_of(b); });
+  if (!files.empty()) files.pop_back();
+  for (const fs::path& file : files) fs::remove(file);
 }
 
 void write_json(const fs::path& path, const nlohmann::json& content) {
@@ -186,8 +225,10 @@ void ViEltoCommand::open(int narg, char** arg) {
         if (!fs::exists(word)) fault = "vielto: input file " + word + " is missing";
         run["hashes"][fs::path(word).filename().string()] = sha256(word);
         if (!parameters) continue;
-        for (std::string name : parameter_names(word))
-          if (const char* value = input->variable->retrieve(&name[0])) run["parameters"][name] = value;
+        // the wall's card has the names of the grain's; its values stand under wall_NAME
+        for (const std::string& plain : parameter_names(word))
+          for (std::string name : {plain, "wall_" + plain})
+            if (const char* value = input->variable->retrieve(&name[0])) run["parameters"][name] = value;
       }
       if (fault.empty()) {
         fs::remove_all(partial, code);
@@ -212,17 +253,11 @@ void ViEltoCommand::resume(int, char** arg) {
       for (const auto& [key, value] : run.at("parameters").items()) {
         std::string name = key;
         const char* now = input->variable->retrieve(&name[0]);
-        if (now && key != "resume" && value.get<std::string>() != now)
+        if (now && key != "resume" && key != "run" && value.get<std::string>() != now)
           throw std::runtime_error("it was started with " + key + " " + value.get<std::string>() + ", not " + now);
       }
-      fs::file_time_type best{};
-      if (fs::exists(partial / "restart"))
-        for (const auto& entry : fs::directory_iterator(partial / "restart"))
-          if (entry.path().extension() == ".restart" && (newest.empty() || entry.last_write_time() > best)) {
-            newest = entry.path().string();
-            best = entry.last_write_time();
-          }
-      if (newest.empty()) throw std::runtime_error("it holds no restart file");
+      newest = newest_restart(partial);
+      if (newest.empty()) throw std::runtime_error("it was broken off before the first restart file was complete");
     } catch (const std::exception& e) {
       fault = "vielto: cannot resume " + partial.string() + ": " + e.what() + "; start anew without -var resume";
     }
@@ -243,6 +278,7 @@ void ViEltoCommand::close(int, char** arg) {
       std::ifstream in(partial / "run.json");
       nlohmann::json run = nlohmann::json::parse(in);
       run["status"] = "complete";
+      remove_older_restarts(partial);
       write_json(partial / "run.json", run);
       fs::rename(partial, folder);
     } catch (const std::exception& e) {

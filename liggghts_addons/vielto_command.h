@@ -13,8 +13,9 @@
                                                make FOLDER.partial with run.json: the present values of all parameters stated
                                                in the files F, hashes of all files F and G, versions, command line
      vielto resume FOLDER NAME                 take up FOLDER.partial, broken off earlier with the same parameters: set
-                                               variable NAME to its newest restart file
-     vielto close FOLDER                       mark run.json complete and rename FOLDER.partial to FOLDER */
+                                               variable NAME to its last restart file (restart/STEP.restart)
+     vielto close FOLDER                       mark run.json complete, keep the last restart file only and rename
+                                               FOLDER.partial to FOLDER */
 #ifdef COMMAND_CLASS
 CommandStyle(vielto, ViEltoCommand)
 #else
