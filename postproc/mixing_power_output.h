@@ -13,7 +13,13 @@
 
 namespace vielto {
 
-// Keys as in the code; *_u standard uncertainty (k = 1), *_u95 half width of the 95 % interval; null: not there.
+// power.json. Units end the key (_W, _Nm, _kg); speed in 1/s, all else is a number. *_u: standard uncertainty (k = 1);
+// *_u95: half width of the 95 % interval; null: not recorded or not asked for. Beside what mixing_power.h defines:
+//   turns_total, turns_averaged  whole turns recorded and averaged; turn_first: turns done when the average begins
+//   drift_per_turn, drift_probability  slope of the averaged turn means over their mean, and its chance in steady noise
+//   torque_ripple_noise          what noise alone would show as ripple (whole_shaft.h)
+//   thesis_in_range              fill and speed lie where the published equation was fitted
+//   quality                      ok is false if a limit is violated: `warnings` says which; `notes` violate none
 nlohmann::ordered_json power_json(const MixingPower& power);
 
 // For people: aligned, with units.
