@@ -16,6 +16,7 @@
 #include "error.h"
 #include "fix_gravity.h"
 #include "fix_mesh_surface.h"
+#include "fix_property_atom.h"
 #include "force.h"
 #include "mesh_module_stress.h"
 #include "modify.h"
@@ -69,6 +70,18 @@ FixViEltoRecord::FixViEltoRecord(LAMMPS* lammps, int narg, char** arg) : Fix(lam
 
 FixViEltoRecord::~FixViEltoRecord() {
   if (file_) fclose(file_);
+}
+
+// Forces and torques of the last step, kept in restart files only.
+void FixViEltoRecord::post_create() {
+  const std::string name = std::string(id) + "_forces";
+  const char* words[] = {name.c_str(), "all", "property/atom", name.c_str(), "vector", "yes", "no",
+                         "no",         "0",   "0",             "0",          "0",      "0",   "0"};
+  forces_ = modify->add_fix_property_atom(14, const_cast<char**>(words), style);
+}
+
+void FixViEltoRecord::pre_delete(bool unfixed) {
+  if (unfixed) modify->delete_fix(forces_->id);
 }
 
 void FixViEltoRecord::parse(int narg, char** arg) {
@@ -157,8 +170,20 @@ void FixViEltoRecord::init() {
 void FixViEltoRecord::setup(int) {
   if (!file_) open_file();
   if (grains_ < 0) check_grains();
+  if (forcesRead_) take_up_forces();
   progressStart_ = progressLast_ = MPI_Wtime();
   progressStep_ = update->ntimestep;
+}
+
+/* Forces belong to the velocities half a step before; those that LIGGGHTS has just computed belong to the velocities of
+   the restart's step, and dashpots make a difference. With the forces of then the run goes on as if never broken off. */
+void FixViEltoRecord::take_up_forces() {
+  for (int i = 0; i < atom->nlocal; i++)
+    for (int d = 0; d < 3; d++) {
+      atom->f[i][d] = forces_->array_atom[i][d];
+      atom->torque[i][d] = forces_->array_atom[i][d + 3];
+    }
+  forcesRead_ = false;
 }
 
 void FixViEltoRecord::check_time_step() {
@@ -448,6 +473,11 @@ void FixViEltoRecord::write_restart(FILE* fp) {
   // LIGGGHTS writes the pairs' contact history as it was when the neighbour lists were last made: bring it up to date
   for (int i = 0; i < modify->nfix; i++)
     if (strcmp(modify->fix[i]->style, "contacthistory") == 0) modify->fix[i]->setup_pre_exchange();
+  for (int i = 0; i < atom->nlocal; i++)
+    for (int d = 0; d < 3; d++) {
+      forces_->array_atom[i][d] = atom->f[i][d];
+      forces_->array_atom[i][d + 3] = atom->torque[i][d];
+    }
   const double list[] = {static_cast<double>(start_), work_, overlapMaxEver_, total(tally_.normalDamping),
                          total(tally_.tangentialDamping), total(tally_.sliding), total(tally_.rolling),
                          total(tally_.twisting)};
@@ -470,7 +500,7 @@ void FixViEltoRecord::restart(char* buf) {
     tally_.rolling = list[6];
     tally_.twisting = list[7];
   }
-  restarted_ = true;
+  restarted_ = forcesRead_ = true;
   if ((update->ntimestep - start_) % every_ != 0)
     vielto::stop_all(lmp, "vielto: this restart lies inside a row of the record; write restarts every so many whole rows");
 }

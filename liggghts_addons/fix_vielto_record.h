@@ -18,7 +18,8 @@
    Torque columns: torque that the part exerts on the grains about the axis in the direction of rotation (positive: the
    drive supplies); force columns: force that the part exerts on the grains. Includes rolling and twisting couples.
    A lost grain, a torque over the limit and too large a time step each stop the run with one line.
-   A restart carries the accounts on; rows beyond the restart's step are cut off.
+   A restart written at the end of a row carries the run on as if it had never been broken off (forces, contact history,
+   accounts); rows beyond the restart's step are cut off.
    Global vector: 1 turn, 2 rotor torque of the last row, 3 drum torque of it, 4 greatest overlap so far, 5 dt over the
    shortest half period. */
 #ifdef FIX_CLASS
@@ -38,12 +39,15 @@ FixStyle(vielto/record, FixViEltoRecord)
 namespace LAMMPS_NS {
 
 class FixMeshSurface;
+class FixPropertyAtom;
 class MeshModuleStress;
 
 class FixViEltoRecord : public Fix {
  public:
   FixViEltoRecord(class LAMMPS*, int, char**);
   ~FixViEltoRecord() override;
+  void post_create() override;
+  void pre_delete(bool unfixed) override;
   int setmask() override;
   void init() override;
   void setup(int) override;
@@ -80,6 +84,7 @@ class FixViEltoRecord : public Fix {
   double add_step();
   double gravity_moment() const;
   void mechanical_energy(double& kinetic, double& potential) const;
+  void take_up_forces();
   void check_time_step();
   void check_torque(const Part&, double torque) const;
   void check_grains();
@@ -104,6 +109,8 @@ class FixViEltoRecord : public Fix {
 
   FILE* file_ = nullptr;
   bool restarted_ = false;
+  bool forcesRead_ = false;
+  FixPropertyAtom* forces_ = nullptr;
   bigint start_ = 0;      // step at which the rotation began
   int steps_ = 0;         // steps in the running interval
   int gravitySamples_ = 0;
