@@ -91,7 +91,8 @@ class Liggghts {
     // a single process needs no transport between processes: starts in 0.03 s instead of 0.3 s
     const std::string alone = "OMPI_MCA_ess_singleton_isolated=1 OMPI_MCA_pml=ob1 OMPI_MCA_btl=self ";
     const std::string mpirun = fmt::format(
-        "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 '{}' --oversubscribe -np {} ", VIELTO_MPIEXEC, ranks);
+        "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 '{}' --mca mpi_yield_when_idle 1 --oversubscribe -np {} ",
+        VIELTO_MPIEXEC, ranks);
     const std::string preload = program == Program::stock ? "env LD_PRELOAD='" VIELTO_LIBRARY "' " : "";
     const std::string binary = program == Program::stock ? VIELTO_STOCK_LIGGGHTS : VIELTO_BIN_DIR "/liggghts";
     return fmt::format("{}{}'{}'", ranks > 1 ? mpirun : alone, preload, binary);
@@ -140,7 +141,10 @@ class Liggghts {
         frames.back().rows.push_back(numbers(line));
       }
     }
-    if (frames.empty()) ADD_FAILURE() << "no frame in " << name;
+    if (frames.empty()) {
+      ADD_FAILURE() << "no frame in " << name;
+      frames.emplace_back();
+    }
     return frames;
   }
 
