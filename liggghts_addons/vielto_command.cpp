@@ -7,17 +7,21 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <sstream>
 #include <string>
 #include <vector>
 
+#include "bad_input.h"
 #include "comm.h"
 #include "error.h"
 #include "force.h"
 #include "input.h"
+#include "par_file.h"
 #include "universe.h"
 #include "variable.h"
 #include "vielto_critical_time.h"
@@ -49,15 +53,27 @@ std::string command_line() {
   return text;
 }
 
-std::vector<std::string> parameter_names(const std::string& path) {
-  std::ifstream in(path);
+bool is_number(const std::string& text) {
+  char* end = nullptr;
+  return !text.empty() && std::isfinite(strtod(text.c_str(), &end)) && *end == '\0';
+}
+
+// The words a parameter may take, from its unit field: "off or on", "uniform, alternating or mirrored".
+std::vector<std::string> choices(const std::string& unit) {
+  if (unit.find(" or ") == std::string::npos) return {};
+  std::istringstream words(unit);
+  std::vector<std::string> list;
+  for (std::string word; words >> word;)
+    if (word != "or") list.push_back(word.back() == ',' ? word.substr(0, word.size() - 1) : word);
+  return list;
+}
+
+// Names given with -var (or -v) on the command line.
+std::vector<std::string> names_on_command_line() {
+  std::ifstream in("/proc/self/cmdline", std::ios::binary);
   std::vector<std::string> names;
-  std::string line;
-  while (std::getline(in, line)) {
-    std::istringstream words(line);
-    std::string keyword, name, style;
-    if (words >> keyword >> name >> style && keyword == "variable" && style == "index") names.push_back(name);
-  }
+  for (std::string word; std::getline(in, word, '\0');)
+    if ((word == "-var" || word == "-v") && std::getline(in, word, '\0')) names.push_back(word);
   return names;
 }
 
@@ -125,6 +141,8 @@ void ViEltoCommand::command(int narg, char** arg) {
     prime(narg, arg);
   else if (what == "words" && narg > 2)
     set_variable(arg[1], joined(narg, arg, 2).c_str());
+  else if (what == "check" && narg > 1)
+    check(narg, arg);
   else if (what == "provisional" && narg > 2)
     provisional(narg, arg);
   else if (what == "resume" && narg == 3)
@@ -134,7 +152,7 @@ void ViEltoCommand::command(int narg, char** arg) {
   else if (what == "close" && narg == 2)
     close(narg, arg);
   else
-    vielto::stop_all(lmp, "vielto: unknown form of this command; use error, half_period, shell, prime, words, provisional, open, resume or close");
+    vielto::stop_all(lmp, "vielto: unknown form of this command; use error, half_period, shell, prime, words, check, provisional, open, resume or close");
 }
 
 void ViEltoCommand::half_period(int, char** arg) {
@@ -170,7 +188,7 @@ void ViEltoCommand::shell(int narg, char** arg) {
   const std::string line = joined(narg, arg, 1);
   std::string fault;
   if (comm->me == 0 && system(line.c_str()) != 0)
-    fault = "vielto: '" + line.substr(0, 160) + "' failed; its own message stands above";
+    fault = "vielto: '" + std::string(arg[1]) + (narg > 2 ? std::string(" ") + arg[2] : "") + "' failed; its own line stands above";
   stop_if(fault);
 }
 
@@ -186,15 +204,35 @@ void ViEltoCommand::prime(int, char** arg) {
   set_variable(arg[1], std::to_string(candidate).c_str());
 }
 
+void ViEltoCommand::check(int narg, char** arg) {
+  std::string fault;
+  if (comm->me == 0) try {
+      const vielto::ParFile file = vielto::ParFile::read(arg[1]);
+      for (int i = 3; i < narg; i++) file.number(arg[i]);
+      for (const vielto::Parameter& p : file.all())
+        for (std::string name : {p.name, "wall_" + p.name}) {
+          const char* now = input->variable->retrieve(&name[0]);
+          if (!now || !fault.empty()) continue;
+          const std::vector<std::string> words = choices(p.unit);
+          const bool good = words.empty() ? !is_number(p.value) || is_number(now)
+                                          : std::find(words.begin(), words.end(), now) != words.end();
+          if (!good)
+            fault = "vielto: " + name + " is '" + now + "'; give " + (words.empty() ? "a number (" + p.unit + ")" : p.unit) +
+                    " with -var " + name;
+        }
+    } catch (const vielto::BadInput& e) {
+      fault = std::string("vielto: ") + e.what();
+    }
+  stop_if(fault);
+}
+
 void ViEltoCommand::provisional(int narg, char** arg) {
   int found = 0;
   std::string fault;
-  if (comm->me == 0)
-    for (int i = 2; i < narg; i++) {
-      std::ifstream in(arg[i]);
-      std::string first;
-      if (!std::getline(in, first)) fault = std::string("vielto: card ") + arg[i] + " cannot be read";
-      if (first.find("provisional") != std::string::npos) found = 1;
+  if (comm->me == 0) try {
+      for (int i = 2; i < narg; i++) found = found || vielto::ParFile::read(arg[i]).provisional();
+    } catch (const vielto::BadInput& e) {
+      fault = std::string("vielto: ") + e.what();
     }
   stop_if(fault);
   MPI_Bcast(&found, 1, MPI_INT, 0, world);
@@ -216,6 +254,7 @@ void ViEltoCommand::open(int narg, char** arg) {
                             {"ranks", comm->nprocs},
                             {"versions", {{"vielto", VIELTO_VERSION}, {"liggghts", universe->version}}}};
       bool parameters = false;
+      std::set<std::string> known;
       for (int i = 2; i < narg && fault.empty(); i++) {
         const std::string word = arg[i];
         if (word == "parameters" || word == "inputs") {
@@ -224,12 +263,18 @@ void ViEltoCommand::open(int narg, char** arg) {
         }
         if (!fs::exists(word)) fault = "vielto: input file " + word + " is missing";
         run["hashes"][fs::path(word).filename().string()] = sha256(word);
-        if (!parameters) continue;
+        if (!parameters || !fault.empty()) continue;
         // the wall's card has the names of the grain's; its values stand under wall_NAME
-        for (const std::string& plain : parameter_names(word))
-          for (std::string name : {plain, "wall_" + plain})
+        const vielto::ParFile file = vielto::ParFile::read(word);
+        for (const vielto::Parameter& p : file.all())
+          for (std::string name : {p.name, "wall_" + p.name}) {
+            known.insert(name);
             if (const char* value = input->variable->retrieve(&name[0])) run["parameters"][name] = value;
+          }
       }
+      for (const std::string& name : names_on_command_line())
+        if (fault.empty() && !known.count(name))
+          fault = "vielto: -var " + name + ": there is no such parameter; see " + arg[3] + " and the cards for the names";
       if (fault.empty()) {
         fs::remove_all(partial, code);
         if (!fs::create_directories(partial, code))
@@ -249,6 +294,7 @@ void ViEltoCommand::resume(int, char** arg) {
     try {
       std::ifstream in(partial / "run.json");
       if (!in) throw std::runtime_error("it does not exist");
+      if (!fs::exists(partial / "mesh" / "geometry.par")) throw std::runtime_error("mesh/geometry.par is missing");
       const nlohmann::json run = nlohmann::json::parse(in);
       for (const auto& [key, value] : run.at("parameters").items()) {
         std::string name = key;

@@ -8,10 +8,14 @@
      vielto shell COMMAND...                   run a program; stop if it fails (LIGGGHTS' own shell does not look)
      vielto prime NAME K                       set variable NAME to the K-th prime over 10000, as LIGGGHTS wants its seeds
      vielto words NAME W1 W2 ...               set variable NAME to these words (quoted text is not substituted by LIGGGHTS)
+     vielto check FILE [needs N1 N2 ...]       stop if the parameter file cannot be read, lacks one of these numbers, or if one of
+                                               its parameters (or wall_PARAMETER) has been given a value of another kind: no
+                                               number where it states one, none of the words its unit field allows (A, B or C)
      vielto provisional NAME F1 F2 ...         set variable NAME to 1 if a card's first line calls it provisional, else to 0
      vielto open FOLDER parameters F1 F2 ... inputs G1 G2 ...
                                                make FOLDER.partial with run.json: the present values of all parameters stated
-                                               in the files F, hashes of all files F and G, versions, command line
+                                               in the files F (and wall_PARAMETER), hashes of all files F and G, versions,
+                                               command line; a -var that is none of these parameters stops the run
      vielto resume FOLDER NAME                 take up FOLDER.partial, broken off earlier with the same parameters: set
                                                variable NAME to its last restart file (restart/STEP.restart)
      vielto close FOLDER                       mark run.json complete, keep the last restart file only and rename
@@ -37,6 +41,7 @@ class ViEltoCommand : protected Pointers {
   void half_period(int narg, char** arg);
   void shell(int narg, char** arg);
   void prime(int narg, char** arg);
+  void check(int narg, char** arg);
   void provisional(int narg, char** arg);
   void set_variable(char* name, const char* value);
   void stop_if(const std::string& faultOnRankZero);

@@ -4,6 +4,7 @@
 // clang-format off
 // fix_insert_stream.h has to precede pair_gran_base.h: that header uses a class which it only declares
 #include <mpi.h>
+#include <stdio.h>
 #include <map>
 #include <string>
 #include "lammps.h"
@@ -96,6 +97,8 @@ void add_rolling_combinations() {
 
 struct Registration {
   Registration() {
+    // LIGGGHTS prints an error and calls MPI_Abort, which loses what stands in the buffer of a pipe or file
+    setvbuf(stdout, NULL, _IOLBF, 0);
     ContactModels::Factory& models = ContactModels::Factory::instance();
     models.addNormalModel("vielto", VIELTO);
     models.addTangentialModel("vielto", TANGENTIAL_VIELTO);

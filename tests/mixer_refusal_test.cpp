@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What must not become a result: bad input and broken physics stop the mixer's run with one clear line, a status that is not
+// 0, and no finished run folder.
+#include "mixer_runner.h"
+
+using namespace vielto_test;
+namespace fs = std::filesystem;
+
+namespace {
+
+// One line ERROR that holds all of `words`.
+void expect_refusal(const Mixer& mixer, const std::string& name, const Outcome& outcome, const std::vector<std::string>& words) {
+  EXPECT_NE(outcome.status, 0) << outcome.text;
+  EXPECT_FALSE(fs::exists(mixer.folder / name));
+  std::istringstream in(outcome.text);
+  std::vector<std::string> errors;
+  for (std::string line; std::getline(in, line);)
+    if (line.rfind("ERROR", 0) == 0) errors.push_back(line);
+  ASSERT_EQ(errors.size(), 1u) << outcome.text;
+  for (const std::string& word : words) EXPECT_NE(errors[0].find(word), std::string::npos) << word << " in: " << errors[0];
+}
+
+struct Refusal {
+  std::string name, option;
+  std::vector<std::string> words;
+};
+
+void PrintTo(const Refusal& r, std::ostream* out) { *out << r.option; }
+
+class MixerRefuses : public testing::TestWithParam<Refusal> {};
+
+void copy_cards(const Mixer& mixer) { fs::copy(VIELTO_SOURCE_DIR "/materials", mixer.folder / "cards"); }
+
+// Takes the line of a parameter out of a card.
+void remove_parameter(const Mixer& mixer, const std::string& card, const std::string& name) {
+  std::istringstream in(mixer.read(card));
+  std::string text;
+  for (std::string line; std::getline(in, line);)
+    if (line.find("variable " + name + " ") != 0) text += line + "\n";
+  mixer.write(card, text);
+}
+
+}  // namespace
+
+TEST_P(MixerRefuses, WithOneLine) {
+  Mixer mixer;
+  expect_refusal(mixer, "run", mixer.mixer("run", two, GetParam().option), GetParam().words);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    BadInput, MixerRefuses,
+    testing::Values(
+        Refusal{"FillBelowZero", "-var fill -0.1", {"fill is -0.1", "0 to 0.5"}},
+        Refusal{"FillOverRange", "-var fill 0.51", {"fill is 0.51", "0 to 0.5"}},
+        Refusal{"SpeedZero", "-var speed 0", {"speed is 0", "> 0"}},
+        Refusal{"NoTurns", "-var turns 0", {"turns is 0"}},
+        Refusal{"TimeStepOverLimit", "-var dtFraction 0.051", {"dtFraction is 0.051", "at most 0.05"}},
+        Refusal{"WordForNumber", "-var speed fast", {"speed is 'fast'", "number", "-var speed"}},
+        Refusal{"WordForWallsNumber", "-var wall_frictionAngle steep", {"wall_frictionAngle is 'steep'", "number"}},
+        Refusal{"UnknownWord", "-var energyBalance maybe", {"energyBalance is 'maybe'", "off or on"}},
+        Refusal{"MisspelledParameter", "-var grainDiametre 0.01", {"-var grainDiametre", "no such parameter"}},
+        Refusal{"SeedOfHalves", "-var seed 1.5", {"seed is 1.5", "whole number"}},
+        Refusal{"UnknownGrain", "-var grain moon_dust", {"materials/moon_dust.par", "cannot be read"}},
+        Refusal{"UnknownWall", "-var wall moon_rock", {"materials/moon_rock.par", "cannot be read"}},
+        Refusal{"NegativeFriction", "-var frictionAngle -5", {"frictionAngle of type 1 is -5", "range"}},
+        Refusal{"NegativeStiffnessOfWall", "-var wall_stiffnessRatio -1", {"stiffnessRatio of type 2 is -1", "range"}},
+        Refusal{"ImpossibleGeometry", "-var clearance -0.001", {"vielto geometry", "failed"}},
+        Refusal{"OtherRig", "-var rig drum", {"rig differs from mixer", "mesh"}},
+        Refusal{"MassThatHasNoRoom", "-var fill 0.5 -var bulkDensity 1400", {"above the drum rim", "lower fill"}},
+        Refusal{"OverlapOverLimit", "-var maxOverlap 0.002", {"step", "overlap of grain", "maxOverlap"}},
+        Refusal{"TorqueOverLimit", "-var maxTorque 0.05", {"step", "torque of", "grain", "maxTorque"}}),
+    [](const auto& one) { return one.param.name; });
+
+TEST(MixerRefusesCard, WithoutAPropertyOfGrainOrWall) {
+  Mixer mixer;
+  const std::string cards = fmt::format("-var materials '{}/cards'", mixer.folder.string());
+  copy_cards(mixer);
+  remove_parameter(mixer, "cards/steel.par", "rollingResistance");
+  expect_refusal(mixer, "run", mixer.mixer("run", two, cards), {"steel.par", "rollingResistance", "missing"});
+  remove_parameter(mixer, "cards/hulled_millet.par", "frictionAngle");
+  expect_refusal(mixer, "run", mixer.mixer("run", two, cards), {"hulled_millet.par", "frictionAngle", "missing"});
+}
+
+TEST(MixerRefusesCard, OnTwoRanksWithOneLineToo) {
+  Mixer mixer;
+  expect_refusal(mixer, "run", mixer.mixer("run", two, "-var grain moon_dust", 2), {"moon_dust.par", "cannot be read"});
+}
+
+TEST(MixerRefusesFolder, ThatIsThereAlready) {
+  Mixer mixer;
+  fs::create_directory(mixer.folder / "run");
+  mixer.write("run/torque.csv", "precious");
+  const Outcome outcome = mixer.mixer("run", two);
+  EXPECT_NE(outcome.status, 0);
+  EXPECT_NE(outcome.text.find("is there already"), std::string::npos) << outcome.text;
+  EXPECT_EQ(mixer.read("run/torque.csv"), "precious");
+  EXPECT_FALSE(fs::exists(mixer.folder / "run.partial"));
+}
+
+// A run taken up again brings its mesh along; the parameters must be those of this mesh, and its files must be there.
+TEST(MixerRefusesMesh, ThatIsNotTheRunsOwn) {
+  Mixer mixer;
+  const std::string options = two + "-var restartTurns 0.1 ";
+  mixer.must_break_off("run", options);
+  const std::string mesh = (mixer.folder / "run.partial/mesh").string();
+  fs::rename(mesh + "/shaft.stl", mesh + "/shaft");
+  expect_refusal(mixer, "run", mixer.mixer("run", options, "-var resume yes"), {"shaft.stl"});
+  const Outcome made = mixer.shell(fmt::format("'{}/vielto' geometry '{}/cases/mixer/mixer.par' --set slicePaddles=2 --set clearance=0.002 --out '{}'",
+                                               VIELTO_BIN_DIR, VIELTO_SOURCE_DIR, mesh));
+  ASSERT_EQ(made.status, 0) << made.text;
+  expect_refusal(mixer, "run", mixer.mixer("run", options, "-var resume yes"), {"clearance differs from 0.002", "mesh"});
+}
+
+// Grains far too soft for 20 turns a second, with no limit on their overlap: the rotor squeezes one out of the drum.
+TEST(MixerRefusesLoss, OfAGrain) {
+  Mixer mixer;
+  const Outcome outcome = mixer.mixer("run", two, "-var speed 20 -var turns 2 -var maxOverlap 0 -var youngsModulus 2e4 -var wall_youngsModulus 2e4");
+  expect_refusal(mixer, "run", outcome, {"step", "178 of 179 grains are there; grain ", "was lost", "velocity"});
+}
