@@ -65,7 +65,7 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"NegativeFriction", "-var frictionAngle -5", {"frictionAngle of type 1 is -5", "range"}},
         Refusal{"NegativeStiffnessOfWall", "-var wall_stiffnessRatio -1", {"stiffnessRatio of type 2 is -1", "range"}},
         Refusal{"ImpossibleGeometry", "-var clearance -0.001", {"vielto geometry", "failed"}},
-        Refusal{"OtherRig", "-var rig drum", {"rig differs from mixer", "mesh"}},
+        Refusal{"OtherRig", "-var rig drum", {"rig is drum", "made with mixer", "mesh"}},
         Refusal{"MassThatHasNoRoom", "-var fill 0.5 -var bulkDensity 1400", {"above the drum rim", "lower fill"}},
         Refusal{"OverlapOverLimit", "-var maxOverlap 0.002", {"step", "overlap of grain", "maxOverlap"}},
         Refusal{"TorqueOverLimit", "-var maxTorque 0.05", {"step", "torque of", "grain", "maxTorque"}}),
@@ -108,7 +108,7 @@ TEST(MixerRefusesMesh, ThatIsNotTheRunsOwn) {
   const Outcome made = mixer.shell(fmt::format("'{}/vielto' geometry '{}/cases/mixer/mixer.par' --set slicePaddles=2 --set clearance=0.002 --out '{}'",
                                                VIELTO_BIN_DIR, VIELTO_SOURCE_DIR, mesh));
   ASSERT_EQ(made.status, 0) << made.text;
-  expect_refusal(mixer, "run", mixer.mixer("run", options, "-var resume yes"), {"clearance differs from 0.002", "mesh"});
+  expect_refusal(mixer, "run", mixer.mixer("run", options, "-var resume yes"), {"clearance is 0.001", "made with 0.002", "mesh"});
 }
 
 // Grains far too soft for 20 turns a second, with no limit on their overlap: the rotor squeezes one out of the drum.

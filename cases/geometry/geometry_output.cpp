@@ -85,8 +85,9 @@ std::string geometry_par(const RigGeometry& geometry, const GeometryInput& input
       text += fmt::format("variable {}_same equal v_{}_${{{}}}\n", used.name, used.name, used.name);
       differs = fmt::format("${{{}_same}} == 0", used.name);
     }
-    text += fmt::format("if \"{}\" then \"vielto error '{} differs from {}, which the mesh in this folder was made with; make it anew "
-                        "with vielto geometry or drop -var {}'\"\n", differs, used.name, used.value, used.name);
+    // no quotes around the words: LIGGGHTS does not substitute ${} in quoted text
+    text += fmt::format("if \"{}\" then \"vielto error {} is ${{{}}} but the mesh in this folder was made with {}; make it anew with "
+                        "vielto geometry or drop -var {}\"\n", differs, used.name, used.name, used.value, used.name);
   }
   return text;
 }
