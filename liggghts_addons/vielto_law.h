@@ -37,17 +37,24 @@
 #include <algorithm>
 #include <cmath>
 
+// These small functions stand in the innermost loop: a call costs more than the work of most of them.
+#if defined(__GNUC__)
+#define VIELTO_INLINE inline __attribute__((always_inline))
+#else
+#define VIELTO_INLINE inline
+#endif
+
 namespace vielto {
 
 struct Vec {
   double x, y, z;
 };
 
-inline Vec operator+(const Vec& a, const Vec& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-inline Vec operator-(const Vec& a, const Vec& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-inline Vec operator*(double s, const Vec& a) { return {s * a.x, s * a.y, s * a.z}; }
-inline double dot(const Vec& a, const Vec& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-inline Vec cross(const Vec& a, const Vec& b) {
+VIELTO_INLINE Vec operator+(const Vec& a, const Vec& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+VIELTO_INLINE Vec operator-(const Vec& a, const Vec& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+VIELTO_INLINE Vec operator*(double s, const Vec& a) { return {s * a.x, s * a.y, s * a.z}; }
+VIELTO_INLINE double dot(const Vec& a, const Vec& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+VIELTO_INLINE Vec cross(const Vec& a, const Vec& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
@@ -102,7 +109,7 @@ struct Stiffness {
   double gammaN, gammaS;
 };
 
-inline Stiffness stiffness(const Pair& p, double R1, double R2, double mEff) {
+VIELTO_INLINE Stiffness stiffness(const Pair& p, double R1, double R2, double mEff) {
   const double a1 = p.E1 * R1;
   const double a2 = p.E2 * R2;
   Stiffness s;
@@ -122,14 +129,14 @@ inline Stiffness stiffness(const Pair& p, double R1, double R2, double mEff) {
 }
 
 // F_n, N; c_n is the factor before k_n u_n (4 as printed, 1 makes beta_n the damping ratio).
-inline double normal_force(double cn, const Stiffness& s, double overlap, double vn) {
+VIELTO_INLINE double normal_force(double cn, const Stiffness& s, double overlap, double vn) {
   return cn * s.kn * overlap - s.gammaN * vn;
 }
 
 /* Carries a stored vector, perpendicular to the normal of the last step, over to the normal n of this one:
    laid into the new tangent plane at unchanged length, and turned about n by the bodies' mean spin angle.
    To second order in the turn of a step this is the rotation of the contact frame. */
-inline Vec turned_with_contact(const Vec& stored, const Vec& n, double spinAngle) {
+VIELTO_INLINE Vec turned_with_contact(const Vec& stored, const Vec& n, double spinAngle) {
   const double along = dot(stored, n);
   Vec t = stored - along * n;
   const double before = dot(stored, stored);
@@ -141,7 +148,7 @@ inline Vec turned_with_contact(const Vec& stored, const Vec& n, double spinAngle
 }
 
 // Shortens v to at most `limit`. Returns true if it had to.
-inline bool cap(Vec& v, double limit) {
+VIELTO_INLINE bool cap(Vec& v, double limit) {
   const double square = dot(v, v);
   if (square <= limit * limit) return false;
   v = (limit / std::sqrt(square)) * v;
@@ -149,7 +156,7 @@ inline bool cap(Vec& v, double limit) {
 }
 
 // Spring part of the tangential force after this step; `stored` already turned. `sliding` tells the cap acted.
-inline Vec tangential_spring(const Stiffness& s, const Vec& stored, const Vec& vs, double dt, double slidingLimit,
+VIELTO_INLINE Vec tangential_spring(const Stiffness& s, const Vec& stored, const Vec& vs, double dt, double slidingLimit,
                              bool& sliding) {
   Vec f = stored - (s.ks * dt) * vs;
   sliding = cap(f, slidingLimit);
@@ -157,20 +164,20 @@ inline Vec tangential_spring(const Stiffness& s, const Vec& stored, const Vec& v
 }
 
 // Length in the moments' caps: 2 R_1 R_2/(R_1 + R_2), m.
-inline double rolling_length(double R1, double R2) { return 2 * R1 * R2 / (R1 + R2); }
+VIELTO_INLINE double rolling_length(double R1, double R2) { return 2 * R1 * R2 / (R1 + R2); }
 
-inline double rolling_stiffness(const Pair& p, double kn, double R1, double R2) { return p.betaKr * kn * R1 * R2; }
-inline double twisting_stiffness(const Pair& p, double ks, double R1, double R2) { return p.betaKtw * ks * R1 * R2; }
+VIELTO_INLINE double rolling_stiffness(const Pair& p, double kn, double R1, double R2) { return p.betaKr * kn * R1 * R2; }
+VIELTO_INLINE double twisting_stiffness(const Pair& p, double ks, double R1, double R2) { return p.betaKtw * ks * R1 * R2; }
 
 // Spring part of the rolling moment after this step; `wr` is the relative spin less its part along n.
-inline Vec rolling_spring(double kr, const Vec& stored, const Vec& wr, double dt, double limit, bool& rolling) {
+VIELTO_INLINE Vec rolling_spring(double kr, const Vec& stored, const Vec& wr, double dt, double limit, bool& rolling) {
   Vec m = stored - (kr * dt) * wr;
   rolling = cap(m, limit);
   return m;
 }
 
 // Spring part of the twisting moment along n after this step; wtw is the relative spin along n.
-inline double twisting_spring(double ktw, double stored, double wtw, double dt, double limit, bool& twisting) {
+VIELTO_INLINE double twisting_spring(double ktw, double stored, double wtw, double dt, double limit, bool& twisting) {
   const double m = stored - ktw * dt * wtw;
   twisting = std::fabs(m) > limit;
   return twisting ? std::copysign(limit, m) : m;

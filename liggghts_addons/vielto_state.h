@@ -4,13 +4,6 @@
 #ifndef VIELTO_STATE_H
 #define VIELTO_STATE_H
 
-// The three parts of one contact belong into one loop body: apart, they cost a call and a reload of everything each.
-#if defined(__GNUC__)
-#define VIELTO_INLINE inline __attribute__((always_inline))
-#else
-#define VIELTO_INLINE inline
-#endif
-
 namespace vielto {
 
 struct Settings {
