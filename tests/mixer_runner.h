@@ -14,7 +14,7 @@ namespace vielto_test {
 // Grains of 16 mm, soft (a long time step), at the highest speed of the booklet; overlap and torque of so coarse a grain
 // nipped in a clearance of 1 mm are not what these tests are about. A slice of four paddles holds some 360 grains, of two 180.
 const std::string four =
-    "-var grainDiameter 0.016 -var youngsModulus 2e5 -var wall_youngsModulus 2e5 -var speed 1.58 -var settleTime 0.2 "
+    "-var grainDiameter 0.016 -var youngsModulus 2e5 -var wall_youngsModulus 2e5 -var speed 1.58 -var settleTime 0.35 "
     "-var maxOverlap 0.5 -var maxTorque 0 -var turns 0.3 ";
 const std::string two = "-var slicePaddles 2 " + four;
 
