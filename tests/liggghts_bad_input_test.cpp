@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Bad input of the contact law through `liggghts`: each ends the run with status 1 and one line that names what is wrong. And what is no
+// error although LIGGGHTS' own models refuse it.
+#include "contact_reference.h"
+
+namespace {
+
+using namespace vielto_test;
+
+// Two grains of two types in contact; `properties` and the models' line are the test's.
+std::string script(const Liggghts& run, const std::string& given, const std::string& models) {
+  std::vector<Sphere> two(2);
+  two[1].type = 2;
+  two[1].x[0] = 0.00999;
+  return settings_head() + grains(run, two, 0.05, 2) + "neighbor 0.002 bin\nneigh_modify delay 0\n" + given +
+         fmt::format("pair_style gran {}\npair_coeff * *\ntimestep 1e-6\nfix move all nve/sphere\nrun 2\n", models);
+}
+
+// Properties of two types with one line replaced (or dropped, with an empty one).
+std::string with(const std::string& name, const std::string& line) {
+  std::istringstream in(properties({Material(), Material()}));
+  std::string text;
+  for (std::string given; std::getline(in, given);) {
+    const bool it = given.rfind("fix " + name + " ", 0) == 0;
+    text += it ? (line.empty() ? "" : line + "\n") : given + "\n";
+  }
+  return text;
+}
+
+void expect_error(Liggghts& run, const std::vector<std::string>& words, int ranks = 1) {
+  const Outcome outcome = run.start(ranks);
+  EXPECT_EQ(outcome.status, 1) << outcome.text;
+  std::istringstream in(outcome.text);
+  std::vector<std::string> errors;
+  for (std::string line; std::getline(in, line);)
+    if (line.find("ERROR") != std::string::npos) errors.push_back(line);
+  ASSERT_EQ(errors.size(), 1u) << outcome.text;
+  for (const std::string& word : words) EXPECT_NE(errors[0].find(word), std::string::npos) << word << " in: " << errors[0];
+}
+
+// name, value below its range, value above it (empty: none)
+struct Property {
+  const char* name;
+  const char* low;
+  const char* high;
+};
+
+void PrintTo(const Property& p, std::ostream* out) { *out << p.name; }
+
+std::string property_name(const testing::TestParamInfo<Property>& tested) { return tested.param.name; }
+
+class BadProperty : public testing::TestWithParam<Property> {};
+
+TEST_P(BadProperty, MissingIsNamed) {
+  const std::string name = GetParam().name;
+  Liggghts run;
+  run.script = script(run, with(name, ""), vielto_models);
+  expect_error(run, {"vielto", "property " + name + " is missing", "peratomtype"});
+}
+
+TEST_P(BadProperty, OfWrongLengthIsNamed) {
+  const std::string name = GetParam().name;
+  for (const std::string values : {"0.5", "0.5 0.5 0.5"}) {
+    Liggghts run;
+    run.script = script(run, with(name, fmt::format("fix {0} all property/global {0} peratomtype {1}", name, values)), vielto_models);
+    expect_error(run, {"vielto", "property " + name, "2 types"});
+  }
+}
+
+TEST_P(BadProperty, GivenAsOneScalarIsNamed) {
+  const std::string name = GetParam().name;
+  Liggghts run;
+  run.script = script(run, with(name, fmt::format("fix {0} all property/global {0} scalar 0.5", name)), vielto_models);
+  expect_error(run, {"vielto", "property " + name});
+}
+
+TEST_P(BadProperty, OutOfItsRangeIsNamedWithItsTypeAndRange) {
+  const Property& p = GetParam();
+  for (const std::string value : {p.low, p.high}) {
+    if (value.empty()) continue;
+    Liggghts run;
+    run.script = script(run, with(p.name, fmt::format("fix {0} all property/global {0} peratomtype 0.5 {1}", p.name, value)), vielto_models);
+    expect_error(run, {"vielto", fmt::format("property {} of type 2", p.name), "out of its range"});
+  }
+}
+
+// LIGGGHTS itself reads no such number, and says so before it knows the property.
+TEST_P(BadProperty, NotANumberIsRefused) {
+  for (const char* value : {"nan", "inf", "soft"}) {
+    Liggghts run;
+    run.script = script(run, with(GetParam().name, fmt::format("fix {0} all property/global {0} peratomtype 0.5 {1}", GetParam().name, value)),
+                        vielto_models);
+    expect_error(run, {"Expected floating point parameter"});
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Properties, BadProperty,
+                         testing::Values(Property{"youngsModulus", "0", ""}, Property{"stiffnessRatio", "0", "1.0001"},
+                                         Property{"frictionAngle", "-0.001", "90"}, Property{"normalDamping", "-0.001", ""},
+                                         Property{"tangentialDamping", "-0.001", ""}, Property{"rollingStiffnessFactor", "-0.001", ""},
+                                         Property{"twistingStiffnessFactor", "-0.001", ""}, Property{"rollingResistance", "-0.001", ""},
+                                         Property{"twistingResistance", "-0.001", ""}),
+                         property_name);
+
+// The ends of the ranges are allowed, and the limits of LIGGGHTS' own models (E >= 5 MPa, nu <= 0.5) are not ViElTo's.
+TEST(GoodProperty, SoftStiffAndLimitingValuesRun) {
+  for (const char* line :
+       {"youngsModulus|1", "youngsModulus|1e15", "stiffnessRatio|1", "stiffnessRatio|1e-6", "frictionAngle|0", "frictionAngle|89.9",
+        "normalDamping|0", "normalDamping|5", "rollingStiffnessFactor|0", "rollingResistance|0", "twistingResistance|100"}) {
+    const std::string text = line, name = text.substr(0, text.find('|')), value = text.substr(text.find('|') + 1);
+    Liggghts run;
+    run.script = script(run, with(name, fmt::format("fix {0} all property/global {0} peratomtype {1} {1}", name, value)), vielto_models);
+    const Outcome outcome = run.start();
+    EXPECT_EQ(outcome.status, 0) << line << "\n" << outcome.text;
+  }
+}
+
+struct Line {
+  const char* name;
+  const char* models;
+  std::vector<std::string> words;
+};
+
+void PrintTo(const Line& l, std::ostream* out) { *out << l.name; }
+
+std::string line_name(const testing::TestParamInfo<Line>& tested) { return tested.param.name; }
+
+class BadSetting : public testing::TestWithParam<Line> {};
+
+TEST_P(BadSetting, IsNamed) {
+  Liggghts run;
+  run.script = script(run, properties({Material(), Material()}), GetParam().models);
+  expect_error(run, GetParam().words);
+}
+
+#define VIELTO "model vielto tangential vielto rolling_friction vielto "
+INSTANTIATE_TEST_SUITE_P(
+    Settings, BadSetting,
+    testing::Values(Line{"spring_factor_zero", VIELTO "springFactor 0", {"springFactor must be > 0"}},
+                    Line{"spring_factor_negative", VIELTO "springFactor -4", {"springFactor must be > 0"}},
+                    Line{"spring_factor_nan", VIELTO "springFactor nan", {"springFactor must be > 0"}},
+                    Line{"wall_radius_factor_zero", VIELTO "wallRadiusFactor 0", {"wallRadiusFactor must be > 0"}},
+                    Line{"max_overlap_negative", VIELTO "maxOverlap -0.1", {"maxOverlap must be >= 0"}},
+                    Line{"limit_force_maybe", VIELTO "limitForce maybe", {"limitForce"}},
+                    Line{"sliding_dashpot_number", VIELTO "slidingDashpot 1", {"slidingDashpot"}},
+                    Line{"unknown_setting", VIELTO "springfactor 4", {"springfactor"}},
+                    // a third of ViElTo has no meaning; LIGGGHTS then looks among its own models and does not find it
+                    Line{"other_normal_model", "model hooke tangential vielto", {"Unknown tangential model"}},
+                    Line{"other_tangential_model", "model vielto tangential history", {"Unknown normal model"}},
+                    Line{"rolling_without_its_normal_model", "model hooke tangential history rolling_friction vielto",
+                         {"Unknown rolling model"}}),
+    line_name);
+#undef VIELTO
+
+TEST(BadPropertyOnTwoRanks, IsNamedOnce) {
+  Liggghts run;
+  run.script = script(run, with("normalDamping", ""), vielto_models);
+  expect_error(run, {"property normalDamping is missing"}, 2);
+}
+
+// ---- the script command ----
+
+// The half period against its formula: normal mode of the stiffest pair, wall included; k_n = 2 E R for a pair, 8/3 E R on a wall, but m_eff = m/2
+// and m: the pair is the faster one. Rolling and twisting off, little tangential stiffness.
+TEST(HalfPeriodCommand, SetsTheVariable) {
+  Liggghts run;
+  Material m;
+  m.rollingStiffnessFactor = m.twistingStiffnessFactor = 0;
+  m.stiffnessRatio = 0.01;
+  run.script = head(run, {Sphere()}, {m}, 0.05) + "vielto half_period tc radius 0.003 density 1400\nprint \"tc=${tc}.\"\n";
+  const Outcome outcome = run.start();
+  ASSERT_EQ(outcome.status, 0) << outcome.text;
+  const std::size_t at = outcome.text.rfind("tc=");
+  ASSERT_NE(at, std::string::npos);
+  const double mass = 1400 * 4.0 / 3 * pi * 2.7e-8;
+  EXPECT_NEAR(std::stod(outcome.text.substr(at + 3)) / (pi * std::sqrt(mass / 2 / (4 * 2e6 * 0.003))), 1, 1e-11);  // printed with 12 digits
+}
+
+TEST(ViEltoCommand, ErrorStopsWithItsWords) {
+  Liggghts run;
+  run.script = head(run, {Sphere()}, {Material()}, 0.05) + "vielto error speed is -1 1/s; give more\n";
+  expect_error(run, {"speed is -1 1/s; give more"});
+}
+
+TEST(ViEltoCommand, UnknownFormIsAnError) {
+  for (const char* form : {"vielto", "vielto nonsense", "vielto half_period tc radius 0.003", "vielto half_period tc diameter 1 density 2",
+                           "vielto half_period tc radius -1 density 2"}) {
+    Liggghts run;
+    run.script = head(run, {Sphere()}, {Material()}, 0.05) + form + "\n";
+    expect_error(run, {"vielto:"});
+  }
+}
+
+TEST(ViEltoCommand, HalfPeriodBeforeThePairStyleIsAnError) {
+  Liggghts run;
+  run.script = settings_head() + grains(run, {Sphere()}, 0.05) + properties({Material()}) + "vielto half_period tc radius 0.003 density 2\n";
+  expect_error(run, {"needs 'pair_style gran model vielto"});
+}
+
+}  // namespace
