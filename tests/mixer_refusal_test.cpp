@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What must not become a result: bad input and broken physics stop the mixer's run with one clear line, a status that is not
-// 0, and no finished run folder.
+// What must not become a result: bad input and broken physics stop the mixer's run with one clear line, a status that
+// is not 0, and no finished run folder.
 #include "mixer_runner.h"
 
 using namespace vielto_test;
@@ -9,7 +9,8 @@ namespace fs = std::filesystem;
 namespace {
 
 // One line ERROR that holds all of `words`.
-void expect_refusal(const Mixer& mixer, const std::string& name, const Outcome& outcome, const std::vector<std::string>& words) {
+void expect_refusal(const Mixer& mixer, const std::string& name, const Outcome& outcome,
+                    const std::vector<std::string>& words) {
   EXPECT_NE(outcome.status, 0) << outcome.text;
   EXPECT_FALSE(fs::exists(mixer.folder / name));
   std::istringstream in(outcome.text);
@@ -17,7 +18,8 @@ void expect_refusal(const Mixer& mixer, const std::string& name, const Outcome& 
   for (std::string line; std::getline(in, line);)
     if (line.rfind("ERROR", 0) == 0) errors.push_back(line);
   ASSERT_EQ(errors.size(), 1u) << outcome.text;
-  for (const std::string& word : words) EXPECT_NE(errors[0].find(word), std::string::npos) << word << " in: " << errors[0];
+  for (const std::string& word : words)
+    EXPECT_NE(errors[0].find(word), std::string::npos) << word << " in: " << errors[0];
 }
 
 struct Refusal {
@@ -52,8 +54,7 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         Refusal{"FillBelowZero", "-var fill -0.1", {"fill is -0.1", "0 to 0.5"}},
         Refusal{"FillOverRange", "-var fill 0.51", {"fill is 0.51", "0 to 0.5"}},
-        Refusal{"SpeedZero", "-var speed 0", {"speed is 0", "> 0"}},
-        Refusal{"NoTurns", "-var turns 0", {"turns is 0"}},
+        Refusal{"SpeedZero", "-var speed 0", {"speed is 0", "> 0"}}, Refusal{"NoTurns", "-var turns 0", {"turns is 0"}},
         Refusal{"TimeStepOverLimit", "-var dtFraction 0.051", {"dtFraction is 0.051", "at most 0.05"}},
         Refusal{"WordForNumber", "-var speed fast", {"speed is 'fast'", "number", "-var speed"}},
         Refusal{"WordForWallsNumber", "-var wall_frictionAngle steep", {"wall_frictionAngle is 'steep'", "number"}},
@@ -105,15 +106,18 @@ TEST(MixerRefusesMesh, ThatIsNotTheRunsOwn) {
   const std::string mesh = (mixer.folder / "run.partial/mesh").string();
   fs::rename(mesh + "/shaft.stl", mesh + "/shaft");
   expect_refusal(mixer, "run", mixer.mixer("run", options, "-var resume yes"), {"shaft.stl"});
-  const Outcome made = mixer.shell(fmt::format("'{}/vielto' geometry '{}/cases/mixer/mixer.par' --set slicePaddles=2 --set clearance=0.002 --out '{}'",
-                                               VIELTO_BIN_DIR, VIELTO_SOURCE_DIR, mesh));
+  const Outcome made = mixer.shell(fmt::format(
+      "'{}/vielto' geometry '{}/cases/mixer/mixer.par' --set slicePaddles=2 --set clearance=0.002 --out '{}'",
+      VIELTO_BIN_DIR, VIELTO_SOURCE_DIR, mesh));
   ASSERT_EQ(made.status, 0) << made.text;
-  expect_refusal(mixer, "run", mixer.mixer("run", options, "-var resume yes"), {"clearance is 0.001", "made with 0.002", "mesh"});
+  expect_refusal(mixer, "run", mixer.mixer("run", options, "-var resume yes"),
+                 {"clearance is 0.001", "made with 0.002", "mesh"});
 }
 
 // Grains far too soft for 20 turns a second, with no limit on their overlap: the rotor squeezes one out of the drum.
 TEST(MixerRefusesLoss, OfAGrain) {
   Mixer mixer;
-  const Outcome outcome = mixer.mixer("run", two, "-var speed 20 -var turns 2 -var maxOverlap 0 -var youngsModulus 2e4 -var wall_youngsModulus 2e4");
+  const Outcome outcome = mixer.mixer(
+      "run", two, "-var speed 20 -var turns 2 -var maxOverlap 0 -var youngsModulus 2e4 -var wall_youngsModulus 2e4");
   expect_refusal(mixer, "run", outcome, {"step", "178 of 179 grains are there; grain ", "was lost", "velocity"});
 }

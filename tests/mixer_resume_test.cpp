@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A mixer run killed on the way and taken up again. The restart file holds positions, velocities, forces, contact history of
-// pairs and meshes, the rotor's position and the record's accounts.
+// A mixer run killed on the way and taken up again. The restart file holds positions, velocities, forces, contact
+// history of pairs and meshes, the rotor's position and the record's accounts.
 #include "mixer_runner.h"
 
 using namespace vielto_test;
@@ -80,7 +80,8 @@ TEST(MixerResume, RefusesARunBrokenOffBeforeItsFirstRestart) {
               "' ]; do kill -0 $p || exit 99; sleep 0.02; done; kill -9 $p; wait $p");
   const Outcome early = mixer.mixer("early", four, "-var resume yes");
   EXPECT_NE(early.status, 0);
-  EXPECT_NE(early.text.find("broken off before the first restart file was complete; start anew"), std::string::npos) << early.text;
+  EXPECT_NE(early.text.find("broken off before the first restart file was complete; start anew"), std::string::npos)
+      << early.text;
   const Outcome other = mixer.mixer("early", four, "-var resume yes -var fill 0.2");
   EXPECT_NE(other.text.find("it was started with fill 0.15, not 0.2"), std::string::npos) << other.text;
 }

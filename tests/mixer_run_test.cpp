@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The mixer's run from filling to run folder: mass and sizes of the grain, where it comes in, the idling record, slices and the
-// whole drum, dumps, and that a run is decided by its seed.
+// The mixer's run from filling to run folder: mass and sizes of the grain, where it comes in, the idling record, slices
+// and the whole drum, dumps, and that a run is decided by its seed.
 #include <vtkCellLocator.h>
 #include <vtkGenericCell.h>
 #include <vtkNew.h>
@@ -56,8 +56,9 @@ std::string last_grains(const Mixer& mixer, const std::string& name) {
 
 }  // namespace
 
-// Mass asked for: fill times the booklet's 47.4 dm3 times 825 kg/m3, of which the slice has 2 of 22 paddles' share. Sizes: three with
-// weights 1/6, 2/3, 1/6 at d and d (1 +- sqrt(3) spread), whose mean and standard deviation are d and d spread.
+// Mass asked for: fill times the booklet's 47.4 dm3 times 825 kg/m3, of which the slice has 2 of 22 paddles' share.
+// Sizes: three with weights 1/6, 2/3, 1/6 at d and d (1 +- sqrt(3) spread), whose mean and standard deviation are d and
+// d spread.
 TEST(MixerFilling, HasTheMassAskedForAndTheSizesOfTheNormalDistribution) {
   Mixer mixer;
   mixer.must("run", two, "-var turns 0.02 -var fill 0.2");
@@ -92,10 +93,11 @@ TEST(MixerFilling, ComesInWithoutTouchingRotorOrDrum) {
   const std::string script = mixer.read("in.mixer");
   const std::size_t first = script.find("\nrun 1\n");
   ASSERT_NE(first, std::string::npos);
-  mixer.write("in.mixer", script.substr(0, first) + "\nrun 1\nwrite_dump all custom/vtk in.vtk id type x y z vx vy vz radius\n");
-  const Outcome outcome = mixer.shell(
-      fmt::format("cd '{}' && PATH='{}':$PATH {} -in in.mixer -var run run -var materials '{}/materials' -var fill 0.25 {}",
-                  mixer.folder.string(), VIELTO_BIN_DIR, Mixer::command(), VIELTO_SOURCE_DIR, four));
+  mixer.write("in.mixer",
+              script.substr(0, first) + "\nrun 1\nwrite_dump all custom/vtk in.vtk id type x y z vx vy vz radius\n");
+  const Outcome outcome = mixer.shell(fmt::format(
+      "cd '{}' && PATH='{}':$PATH {} -in in.mixer -var run run -var materials '{}/materials' -var fill 0.25 {}",
+      mixer.folder.string(), VIELTO_BIN_DIR, Mixer::command(), VIELTO_SOURCE_DIR, four));
   ASSERT_EQ(outcome.status, 0) << outcome.text;
   const auto grains = read_vtk(mixer.folder / "in.vtk");
   vtkDataArray* radius = grains->GetPointData()->GetArray("radius");
@@ -123,7 +125,8 @@ TEST(MixerFilling, ComesInWithoutTouchingRotorOrDrum) {
   EXPECT_LT(nearest, 0.05);  // the triangles looked at are near
 }
 
-// Without grain the record holds the idling model: mean T0 + Ta n^2 with a relative noise of 3 % a row, and no grain torque.
+// Without grain the record holds the idling model: mean T0 + Ta n^2 with a relative noise of 3 % a row, and no grain
+// torque.
 TEST(MixerIdling, RecordsTheModelsMeanAndNoise) {
   Mixer mixer;
   mixer.must("idle", two, "-var fill 0 -var turns 4");
@@ -231,7 +234,8 @@ TEST(MixerRun, IsDecidedByItsSeedAndSameWithTheStockProgram) {
   EXPECT_EQ(a, mixer.read("b/torque.csv"));
   EXPECT_EQ(a, mixer.read("stock/torque.csv"));
   const Table rows = mixer.csv("a/torque.csv"), other = mixer.csv("other/torque.csv");
-  for (const char* column : {"paddles_Nm", "drum_Nm", "idle_Nm"}) EXPECT_NE(rows.at(0, column), other.at(0, column)) << column;
+  for (const char* column : {"paddles_Nm", "drum_Nm", "idle_Nm"})
+    EXPECT_NE(rows.at(0, column), other.at(0, column)) << column;
 }
 
 // run.json tells how to repeat the run.

@@ -11,8 +11,9 @@
 
 namespace vielto_test {
 
-// Grains of 16 mm, soft (a long time step), at the highest speed of the booklet; overlap and torque of so coarse a grain
-// nipped in a clearance of 1 mm are not what these tests are about. A slice of four paddles holds some 360 grains, of two 180.
+// Grains of 16 mm, soft (a long time step), at the highest speed of the booklet; overlap and torque of so coarse a
+// grain nipped in a clearance of 1 mm are not what these tests are about. A slice of four paddles holds some 360
+// grains, of two 180.
 const std::string four =
     "-var grainDiameter 0.016 -var youngsModulus 2e5 -var wall_youngsModulus 2e5 -var speed 1.58 -var settleTime 0.35 "
     "-var maxOverlap 0.5 -var maxTorque 0 -var turns 0.3 ";
@@ -21,10 +22,11 @@ const std::string two = "-var slicePaddles 2 " + four;
 class Mixer : public Liggghts {
  public:
   // The command line as in cases/mixer/in.mixer; a later -var would be ignored, so `more` goes first.
-  std::string command_of(const std::string& name, const std::string& options, const std::string& more = "", int ranks = 1,
-                         Program program = Program::ours) const {
+  std::string command_of(const std::string& name, const std::string& options, const std::string& more = "",
+                         int ranks = 1, Program program = Program::ours) const {
     return fmt::format("cd '{}/cases/mixer' && PATH='{}':$PATH {} -log none -in in.mixer -var run '{}' {} {}",
-                       VIELTO_SOURCE_DIR, VIELTO_BIN_DIR, command(ranks, program), (folder / name).string(), more, options);
+                       VIELTO_SOURCE_DIR, VIELTO_BIN_DIR, command(ranks, program), (folder / name).string(), more,
+                       options);
   }
 
   Outcome mixer(const std::string& name, const std::string& options, const std::string& more = "", int ranks = 1,
@@ -44,10 +46,13 @@ class Mixer : public Liggghts {
   // Starts a run and kills it (SIGKILL) as soon as its record has a row beyond the step of its first restart file.
   void must_break_off(const std::string& name, const std::string& options, const std::string& more = "") {
     const std::string partial = (folder / (name + ".partial")).string();
-    const std::string wait =
-        "p=$!; step() { ls '" + partial + "/restart' 2>/dev/null | sort -n | head -1 | cut -d. -f1; }; "
-        "last() { tail -n 1 '" + partial + "/torque.csv' | cut -d, -f1; }; "
-        "until [ -n \"$(step)\" ] && [ $(last) -gt $(step) ]; do kill -0 $p || exit 99; sleep 0.02; done; kill -9 $p; wait $p";
+    const std::string wait = "p=$!; step() { ls '" + partial +
+                             "/restart' 2>/dev/null | sort -n | head -1 | cut -d. -f1; }; "
+                             "last() { tail -n 1 '" +
+                             partial +
+                             "/torque.csv' | cut -d, -f1; }; "
+                             "until [ -n \"$(step)\" ] && [ $(last) -gt $(step) ]; do kill -0 $p || exit 99; sleep "
+                             "0.02; done; kill -9 $p; wait $p";
     const Outcome outcome = shell(command_of(name, options, more) + " & " + wait);
     ASSERT_EQ(outcome.status, 128 + 9) << outcome.text;
     ASSERT_TRUE(std::filesystem::exists(partial + "/torque.csv"));

@@ -1,5 +1,5 @@
 # cases/mixer through its own command line.
-foreach(name mixer_refusal_test mixer_resume_test)
+foreach(name mixer_balance_test mixer_refusal_test mixer_resume_test)
   vielto_liggghts_test(${name})
   add_dependencies(${name} vielto)
 endforeach()
