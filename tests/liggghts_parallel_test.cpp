@@ -44,8 +44,8 @@ TEST(TwoRanks, AgreeWithOneFromACommonStateWhileContactsSlide) {
     ASSERT_EQ(history1.size(), history2.size());
     for (const auto& [partners, values] : history1) {
       ASSERT_TRUE(history2.count(partners));
-      // spring forces up to 0.01 N from 1e4 N/m, moments 1e-2 of that
-      for (std::size_t i = 0; i < values.size(); i++) EXPECT_NEAR(values[i], history2.at(partners)[i], 1e-9);
+      // forces in N of springs of 1e4 N/m (displacements differ by 1e-11 m), moments in N m are a hundredth of that
+      for (std::size_t i = 0; i < values.size(); i++) EXPECT_NEAR(values[i], history2.at(partners)[i], i < 3 ? 1e-7 : 1e-9);
       if (pairs) {
         const auto side = [&](int grain) { return one.back().x(static_cast<std::size_t>(grain - 1))[0] > 0; };
         across += side(partners.first) != side(partners.second);
@@ -58,7 +58,7 @@ TEST(TwoRanks, AgreeWithOneFromACommonStateWhileContactsSlide) {
   const std::size_t last = torque[0].rows.size() - 1;
   for (const std::string& name : torque[0].names)
     for (std::size_t k = static_cast<std::size_t>(settled / row); k <= last; k++)
-      EXPECT_NEAR(torque[0].at(k, name), torque[1].at(k, name), 1e-7 * std::fabs(torque[0].at(k, name)) + 1e-9) << name << k;
+      EXPECT_NEAR(torque[0].at(k, name), torque[1].at(k, name), 1e-5 * std::fabs(torque[0].at(k, name)) + 1e-8) << name << k;
   EXPECT_GT(torque[0].at(last, "diss_sliding_J"), 1.1 * torque[0].at(last - 12, "diss_sliding_J"));  // it does slide
 }
 
