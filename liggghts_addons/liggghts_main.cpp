@@ -9,7 +9,7 @@
 #include "vielto_register.h"
 
 int main(int argc, char** argv) {
-  // as the stock program: SIGINT and SIGTERM end the run at the next step, SIGUSR1 writes a restart
+  // as the stock program: SIGINT and SIGTERM end the run at the next step (status 1), SIGUSR1 writes a restart
   struct sigaction interrupt = {}, user = {};
   interrupt.sa_handler = LAMMPS_NS::SignalHandler::int_handler;
   user.sa_handler = LAMMPS_NS::SignalHandler::usr1_handler;
@@ -24,5 +24,5 @@ int main(int argc, char** argv) {
     liggghts.input->file();
   }
   MPI_Finalize();
-  return 0;
+  return LAMMPS_NS::SignalHandler::request_quit ? 1 : 0;
 }

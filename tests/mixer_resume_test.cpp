@@ -70,6 +70,23 @@ TEST(MixerResume, OneAndTwoRanksAgreeFromACommonRestart) {
   EXPECT_GT(one.at(kept + 11, "diss_sliding_J"), 1.01 * one.at(kept, "diss_sliding_J"));  // contacts slid meanwhile
 }
 
+// A queue ends a run with SIGTERM: no success, no finished folder, nothing left in the case's folder, and it can be
+// resumed.
+TEST(MixerResume, CarriesOnARunThatWasAskedToEnd) {
+  Mixer mixer;
+  const Outcome ended = mixer.break_off("run", restarts, "TERM");
+  EXPECT_EQ(ended.status, 1) << ended.text;
+  EXPECT_FALSE(std::filesystem::exists(mixer.folder / "run"));
+  for (const auto& entry : std::filesystem::directory_iterator(VIELTO_SOURCE_DIR "/cases/mixer"))
+    EXPECT_EQ(entry.path().filename().string().find("restart_forced"), std::string::npos) << entry.path();
+  mixer.must("run", restarts, "-var resume yes");
+  expect_every_row_once(mixer, "run");
+  // the log goes on too
+  const std::string log = mixer.read("run/log.liggghts");
+  EXPECT_NE(log.find("filling: "), std::string::npos);
+  EXPECT_NE(log.find("done: "), std::string::npos);
+}
+
 TEST(MixerResume, RefusesARunBrokenOffBeforeItsFirstRestart) {
   Mixer mixer;
   const Outcome none = mixer.mixer("none", restarts, "-var resume yes");

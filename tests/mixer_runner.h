@@ -43,19 +43,20 @@ class Mixer : public Liggghts {
     ASSERT_FALSE(std::filesystem::exists(folder / (name + ".partial")));
   }
 
-  // Starts a run and kills it (SIGKILL) as soon as its record has a row beyond the step of its first restart file.
-  void must_break_off(const std::string& name, const std::string& options, const std::string& more = "") {
-    const std::string partial = (folder / (name + ".partial")).string();
-    const std::string wait = "p=$!; step() { ls '" + partial +
-                             "/restart' 2>/dev/null | sort -n | head -1 | cut -d. -f1; }; "
-                             "last() { tail -n 1 '" +
-                             partial +
-                             "/torque.csv' | cut -d, -f1; }; "
-                             "until [ -n \"$(step)\" ] && [ $(last) -gt $(step) ]; do kill -0 $p || exit 99; sleep "
-                             "0.02; done; kill -9 $p; wait $p";
-    const Outcome outcome = shell(command_of(name, options, more) + " & " + wait);
+  // Starts a run and sends it a signal as soon as its record has a row beyond the step of its first restart file.
+  Outcome break_off(const std::string& name, const std::string& options, const std::string& signal = "KILL") {
+    const std::string wait =
+        "step() { ls $d/restart 2>/dev/null | sort -n | head -1 | cut -d. -f1; }; "
+        "last() { tail -n 1 $d/torque.csv | cut -d, -f1; }; "
+        "until [ -n \"$(step)\" ] && [ $(last) -gt $(step) ]; do kill -0 $p || exit 99; sleep 0.02; done; ";
+    return shell(fmt::format("d='{}.partial'; {} & p=$!; {} kill -{} $p; wait $p", (folder / name).string(),
+                             command_of(name, options), wait, signal));
+  }
+
+  void must_break_off(const std::string& name, const std::string& options) {
+    const Outcome outcome = break_off(name, options);
     ASSERT_EQ(outcome.status, 128 + 9) << outcome.text;
-    ASSERT_TRUE(std::filesystem::exists(partial + "/torque.csv"));
+    ASSERT_TRUE(std::filesystem::exists(folder / (name + ".partial/torque.csv")));
     ASSERT_FALSE(std::filesystem::exists(folder / name));
   }
 
