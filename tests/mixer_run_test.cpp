@@ -238,6 +238,19 @@ TEST(MixerRun, IsDecidedByItsSeedAndSameWithTheStockProgram) {
     EXPECT_NE(rows.at(0, column), other.at(0, column)) << column;
 }
 
+TEST(MixerRun, FillsAndTurnsOnTwoRanks) {
+  Mixer mixer;
+  mixer.must("run", four, "-var turns 0.05", 2);
+  const double asked = 0.15 * 0.0474 * 825 * 4 / 22;
+  EXPECT_NEAR(std::stod(mixer.header("run", "mass_kg")), asked,
+              0.5 * sphere_mass(0.5 * diameter * (1 + std::sqrt(3) * spread)));
+  const Table rows = mixer.csv("run/torque.csv");
+  ASSERT_EQ(rows.rows.size(), 18u);
+  EXPECT_EQ(rows.at(17, "grains"), rows.at(0, "grains"));
+  EXPECT_EQ(static_cast<double>(read_vtk(mixer.folder / last_grains(mixer, "run"))->GetNumberOfPoints()),
+            rows.at(0, "grains"));
+}
+
 // run.json tells how to repeat the run.
 TEST(MixerRun, FolderStatesParametersAndInputs) {
   Mixer mixer;
