@@ -68,6 +68,7 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"ImpossibleGeometry", "-var clearance -0.001", {"vielto geometry", "failed"}},
         Refusal{"OtherRig", "-var rig drum", {"rig is drum", "made with mixer", "mesh"}},
         Refusal{"MassThatHasNoRoom", "-var fill 0.5 -var bulkDensity 1400", {"above the drum rim", "lower fill"}},
+        Refusal{"MassBelowOneGrain", "-var fill 0.0001", {"mass that cannot be placed", "raise fill"}},
         Refusal{"OverlapOverLimit", "-var maxOverlap 0.002", {"step", "overlap of grain", "maxOverlap"}},
         Refusal{"TorqueOverLimit", "-var maxTorque 0.05", {"step", "torque of", "grain", "maxTorque"}}),
     [](const auto& one) { return one.param.name; });
