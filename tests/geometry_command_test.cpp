@@ -28,7 +28,19 @@ struct Outcome {
   std::string text;  // both streams
 };
 
+// Open MPI's session folder of a single process is shared by all of them and may vanish at a start: own one for this test.
+struct SessionFolder {
+  SessionFolder() {
+    std::string name = (fs::temp_directory_path() / "vielto-mpi-XXXXXX").string();
+    path = mkdtemp(&name[0]);
+    setenv("OMPI_MCA_orte_tmpdir_base", path.c_str(), 1);
+  }
+  ~SessionFolder() { fs::remove_all(path); }
+  fs::path path;
+};
+
 Outcome run(const std::string& command) {
+  static const SessionFolder session;
   Outcome outcome;
   FILE* pipe = popen((command + " 2>&1").c_str(), "r");
   char buffer[4096];
