@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Runs the real `liggghts` on a script of a test: a temporary folder, the program's own command line, its exit status and
-// text, and dumps and thermo rows read back with all their digits.
+// Runs the real `liggghts` on a script of a test: a temporary folder, the program's own command line, its exit status
+// and text, and dumps and thermo rows read back with all their digits.
 //   Liggghts run;                                   // a temporary folder, removed at the end
-//   run.script = head(box, 1, {millet}) + grains(run, spheres) + "run 100\n";
-//   Outcome done = run.start();                     // or start(2) on two ranks, start(1, Program::stock) with LD_PRELOAD
+//   run.script = head(run, spheres, {Material()}, 0.1) + "timestep 1e-6\nfix move all nve/sphere\nrun 100\n";
+//   Outcome done = run.start();                     // or start(2) on two ranks, start(1, Program::stock) with
+//   LD_PRELOAD
 #pragma once
 
 #include <fmt/format.h>
@@ -91,7 +92,8 @@ class Liggghts {
     // a single process needs no transport between processes: starts in 0.03 s instead of 0.3 s
     const std::string alone = "OMPI_MCA_ess_singleton_isolated=1 OMPI_MCA_pml=ob1 OMPI_MCA_btl=self ";
     const std::string mpirun = fmt::format(
-        "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 '{}' --mca mpi_yield_when_idle 1 --oversubscribe -np {} ",
+        "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 '{}' --mca mpi_yield_when_idle 1 --oversubscribe "
+        "-np {} ",
         VIELTO_MPIEXEC, ranks);
     const std::string preload = program == Program::stock ? "env LD_PRELOAD='" VIELTO_LIBRARY "' " : "";
     const std::string binary = program == Program::stock ? VIELTO_STOCK_LIGGGHTS : VIELTO_BIN_DIR "/liggghts";
@@ -100,7 +102,11 @@ class Liggghts {
 
   // Runs a shell command and keeps its text in out.txt of the folder.
   Outcome shell(const std::string& line) {
-    const int code = std::system(fmt::format("( {} ) > '{}/out.txt' 2>&1", line, folder.string()).c_str());
+    // Open MPI's session folder of a single process is shared by all of them: one that ends removes it from under
+    // one that starts. Each test has its own.
+    const int code = std::system(fmt::format("export OMPI_MCA_orte_tmpdir_base='{1}'; ( {0} ) > '{1}/out.txt' 2>&1", line,
+                                             folder.string())
+                                     .c_str());
     Outcome outcome;
     outcome.status = WIFEXITED(code) ? WEXITSTATUS(code) : 128 + WTERMSIG(code);
     outcome.text = read("out.txt");
@@ -239,13 +245,14 @@ inline std::string settings_head(const std::string& boundary = "f f f") {
    `half` is half the edge of the cubic box. */
 inline std::string grains(const Liggghts& run, const std::vector<Sphere>& spheres, double half, std::size_t types = 1) {
   std::string text = fmt::format(
-      "grains of a test\n\n{} atoms\n{} atom types\n\n{:.17g} {:.17g} xlo xhi\n{:.17g} {:.17g} ylo yhi\n{:.17g} {:.17g} zlo "
+      "grains of a test\n\n{} atoms\n{} atom types\n\n{:.17g} {:.17g} xlo xhi\n{:.17g} {:.17g} ylo yhi\n{:.17g} "
+      "{:.17g} zlo "
       "zhi\n\nAtoms\n\n",
       spheres.size(), types, -half, half, -half, half, -half, half);
   int id = 0;
   for (const Sphere& s : spheres)
-    text += fmt::format("{} {} {:.17g} {:.17g} {:.17g} {:.17g} {:.17g}\n", ++id, s.type, 2 * s.radius, s.density, s.x[0],
-                        s.x[1], s.x[2]);
+    text += fmt::format("{} {} {:.17g} {:.17g} {:.17g} {:.17g} {:.17g}\n", ++id, s.type, 2 * s.radius, s.density,
+                        s.x[0], s.x[1], s.x[2]);
   text += "\nVelocities\n\n";
   id = 0;
   for (const Sphere& s : spheres)
@@ -265,7 +272,8 @@ inline std::string head(const Liggghts& run, const std::vector<Sphere>& spheres,
          fmt::format("pair_style gran {} {}\npair_coeff * *\n", vielto_models, settings);
 }
 
-// A dump of all grains with all digits; columns after `id type x y z vx vy vz omegax omegay omegaz fx fy fz tqx tqy tqz`.
+// A dump of all grains with all digits; columns after `id type x y z vx vy vz omegax omegay omegaz fx fy fz tqx tqy
+// tqz`.
 inline std::string dump_grains(const std::string& file, long every) {
   std::string format = "%d %d";
   for (int i = 0; i < 15; i++) format += " %.17g";
