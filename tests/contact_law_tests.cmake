@@ -1,4 +1,5 @@
-# The contact law alone, and `liggghts` with it through its command line: ours, and the stock one with the library preloaded.
+# The contact law alone, and `liggghts` with it through its command line: ours, and the stock one with the library
+# preloaded.
 find_program(STOCK_LIGGGHTS NAMES liggghts PATHS /usr/bin NO_DEFAULT_PATH REQUIRED)
 function(vielto_liggghts_test name)
   vielto_test(${name} ${name}.cpp LIBS Eigen3::Eigen fmt::fmt)
@@ -15,3 +16,11 @@ foreach(name liggghts_normal_impact_test liggghts_oblique_impact_test
     liggghts_parallel_test liggghts_bodies_test liggghts_bad_input_test)
   vielto_liggghts_test(${name})
 endforeach()
+
+# The law dropped into LIGGGHTS' own source tree: long, so only where such a tree is given.
+set(VIELTO_TEST_SOURCE_TREE "" CACHE PATH "Source tree of LIGGGHTS-PUBLIC 3.8 for the drop-in test; empty: no such test")
+if(VIELTO_TEST_SOURCE_TREE)
+  add_test(NAME DropIn.SourceTreeGivesTheSameNumbers
+    COMMAND sh ${CMAKE_CURRENT_SOURCE_DIR}/drop_in_test.sh ${VIELTO_TEST_SOURCE_TREE} $<TARGET_FILE:vielto_run>)
+  set_tests_properties(DropIn.SourceTreeGivesTheSameNumbers PROPERTIES TIMEOUT 7200)
+endif()

@@ -4,7 +4,9 @@
 
    Body 2 is a sphere, or a flat wall with unit normal `normal` whose plane holds its x (mass infinite,
    R_2 = wallRadiusFactor R_1). n points from body 2 to body 1; everything stored acts on body 1:
+
      dF_s/dt = turn x F_s - k_s v_s,   dM_r/dt = turn x M_r - k_r w_r,   dM_tw/dt = -k_tw w_tw
+
    with turn = n x dn/dt + the mean spin about n, the turn of the contact frame. Caps cut the stored values. */
 #pragma once
 
@@ -29,7 +31,8 @@ class Contact {
       : law_(law), one_(one), two_(two), wall_(false), normal_(Vec::Zero()) {
     mix(a, b, two.radius);
   }
-  Contact(const Sphere& one, const Sphere& wall, const Vec& normal, const Material& a, const Material& b, const Law& law)
+  Contact(const Sphere& one, const Sphere& wall, const Vec& normal, const Material& a, const Material& b,
+          const Law& law)
       : law_(law), one_(one), two_(wall), wall_(true), normal_(normal) {
     mix(a, b, law.wallRadiusFactor * one.radius);
   }

@@ -119,9 +119,9 @@ TEST(LawTangentialSpring, IsCutAtTheSlidingLimit) {
 
 TEST(LawMoments, StiffnessesAndLengthByHand) {
   const vielto::Pair p = vielto::mix(kOne, kTwo);
-  expect_relative(vielto::rolling_length(kR1, kR2), 0.004);                       // 2 * 18 / 9 mm
-  expect_relative(vielto::rolling_stiffness(p, 9600, kR1, kR2), 0.16 * 0.1728);   // 9600 * 1.8e-5 = 0.1728 N m
-  EXPECT_EQ(vielto::twisting_stiffness(p, 4000, kR1, kR2), 0.0);                  // one body has no factor
+  expect_relative(vielto::rolling_length(kR1, kR2), 0.004);                      // 2 * 18 / 9 mm
+  expect_relative(vielto::rolling_stiffness(p, 9600, kR1, kR2), 0.16 * 0.1728);  // 9600 * 1.8e-5 = 0.1728 N m
+  EXPECT_EQ(vielto::twisting_stiffness(p, 4000, kR1, kR2), 0.0);                 // one body has no factor
   expect_relative(vielto::twisting_stiffness(vielto::mix(kTwo, kTwo), 4000, kR1, kR2), 0.7 * 0.072);
 }
 
@@ -177,7 +177,8 @@ TEST(LawLoss, SteadySlidingLosesLimitTimesSlip) {
 
 TEST(LawLoss, FallingLimitLosesTheStoredEnergy) {
   // the load vanishes at rest: 0.5 F^2/k_s = 0.5 * 0.0025 / 4000
-  expect_relative(vielto::capped_spring_loss(Vec{0.05, 0, 0}, Vec{0, 0, 0}, Vec{0, 0, 0}, 1e-5, 4000), 0.5 * 0.0025 / 4000);
+  expect_relative(vielto::capped_spring_loss(Vec{0.05, 0, 0}, Vec{0, 0, 0}, Vec{0, 0, 0}, 1e-5, 4000),
+                  0.5 * 0.0025 / 4000);
 }
 
 TEST(LawLoss, WithoutSpringThereIsNone) {
@@ -194,7 +195,8 @@ TEST(LawContactTime, IsHalfThePeriodOfTheNormalOscillator) {
 // Similarity of the law itself: twice the radii (8 times the mass) at equal strain u/R and equal velocities.
 TEST(LawSimilarity, ForceGrowsWithTheSquareAndMomentWithTheCubeOfTheRadius) {
   const vielto::Pair p = vielto::mix(kOne, kTwo), q = vielto::mix(kTwo, kTwo);
-  const vielto::Stiffness small = vielto::stiffness(p, kR1, kR2, 1e-4), large = vielto::stiffness(p, 2 * kR1, 2 * kR2, 8e-4);
+  const vielto::Stiffness small = vielto::stiffness(p, kR1, kR2, 1e-4),
+                          large = vielto::stiffness(p, 2 * kR1, 2 * kR2, 8e-4);
   expect_relative(vielto::normal_force(4, large, 2e-5, -0.3), 4 * vielto::normal_force(4, small, 1e-5, -0.3));
   expect_relative(large.gammaS, 4 * small.gammaS);
   // angles are equal: spins halve, times double

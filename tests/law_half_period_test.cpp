@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/* The shortest half period of a contact against the generalized eigenvalue problem of its two bodies, formed here from the
-   springs' geometry: energies E = 1/2 q'Kq and T = 1/2 q'Mq in the twelve displacements q = (x1, a1, x2, a2) with rotations a. */
+/* The shortest half period of a contact against the generalized eigenvalue problem of its two bodies, formed here from
+   the springs' geometry: energies E = 1/2 q'Kq and T = 1/2 q'Mq in the twelve displacements q = (x1, a1, x2, a2) with
+   rotations a. */
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
@@ -89,8 +90,8 @@ TEST_P(HalfPeriod, OfASphereOnAWallIsThatOfTheStiffestMode) {
   const Body one = {0.003, 2e-4};
   for (const double factor : {1.0, 2.0, 10.0}) {
     const double expected = half_period(a, b, cn, one, {factor * one.R, 1.0}, true);
-    EXPECT_NEAR(vielto::shortest_half_period(vielto::mix(a, b), cn, one.R, one.m, factor * one.R, kInfinity) / expected, 1,
-                kRounding);
+    EXPECT_NEAR(vielto::shortest_half_period(vielto::mix(a, b), cn, one.R, one.m, factor * one.R, kInfinity) / expected,
+                1, kRounding);
   }
 }
 

@@ -56,7 +56,8 @@ TEST(TurnedWithContact, StaysPerpendicularToTheNewNormal) {
   }
 }
 
-// Tilting keeps the length but for the neglected fourth-order term 3/8 s^2 of 1/sqrt(1 - s), s = sin^2 of the tilt < 1e-4.
+// Tilting keeps the length but for the neglected fourth-order term 3/8 s^2 of 1/sqrt(1 - s), s = sin^2 of the tilt <
+// 1e-4.
 TEST(TurnedWithContact, TiltKeepsTheLength) {
   Random random;
   for (const double angle : {1e-5, 1e-3, 9e-3, 0.05, 0.5}) {
@@ -79,8 +80,8 @@ TEST(TurnedWithContact, SpinKeepsTheLengthToSecondOrder) {
   }
 }
 
-// Against the exact rotation (Rodrigues): the error of one step is of second order, so it falls by 4 with half the angle,
-// and is below the square of the angle.
+// Against the exact rotation (Rodrigues): the error of one step is of second order, so it falls by 4 with half the
+// angle, and is below the square of the angle.
 TEST(TurnedWithContact, EqualsTheExactRotationToSecondOrder) {
   Random random;
   for (int i = 0; i < 200; i++) {
@@ -104,8 +105,8 @@ TEST(TurnedWithContact, NormalTurnedOntoTheStoredVectorLeavesAFiniteOne) {
   EXPECT_LE(result.norm(), 3.0);
 }
 
-// v(x) = v_0 + w x (x - x_0) on the corners of a random triangle; the spin must come back, also where it lies in the plane of
-// the triangle. Tolerance: round-off grows with the ratio of edges to height (at most about 20 here).
+// v(x) = v_0 + w x (x - x_0) on the corners of a random triangle; the spin must come back, also where it lies in the
+// plane of the triangle. Tolerance: round-off grows with the ratio of edges to height (at most about 20 here).
 TEST(TriangleSpin, IsRecoveredFromAnyRigidMotion) {
   Random random;
   int tried = 0;

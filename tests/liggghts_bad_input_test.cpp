@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Bad input of the contact law through `liggghts`: each ends the run with status 1 and one line that names what is wrong. And what is no
-// error although LIGGGHTS' own models refuse it.
+// Bad input of the contact law through `liggghts`: each ends the run with status 1 and one line that names what is
+// wrong. And what is no error although LIGGGHTS' own models refuse it.
 #include "contact_reference.h"
 
 namespace {
@@ -35,7 +35,8 @@ void expect_error(Liggghts& run, const std::vector<std::string>& words, int rank
   for (std::string line; std::getline(in, line);)
     if (line.find("ERROR") != std::string::npos) errors.push_back(line);
   ASSERT_EQ(errors.size(), 1u) << outcome.text;
-  for (const std::string& word : words) EXPECT_NE(errors[0].find(word), std::string::npos) << word << " in: " << errors[0];
+  for (const std::string& word : words)
+    EXPECT_NE(errors[0].find(word), std::string::npos) << word << " in: " << errors[0];
 }
 
 // name, value below its range, value above it (empty: none)
@@ -62,7 +63,8 @@ TEST_P(BadProperty, OfWrongLengthIsNamed) {
   const std::string name = GetParam().name;
   for (const std::string values : {"0.5", "0.5 0.5 0.5"}) {
     Liggghts run;
-    run.script = script(run, with(name, fmt::format("fix {0} all property/global {0} peratomtype {1}", name, values)), vielto_models);
+    run.script = script(run, with(name, fmt::format("fix {0} all property/global {0} peratomtype {1}", name, values)),
+                        vielto_models);
     expect_error(run, {"vielto", "property " + name, "2 types"});
   }
 }
@@ -79,7 +81,9 @@ TEST_P(BadProperty, OutOfItsRangeIsNamedWithItsTypeAndRange) {
   for (const std::string value : {p.low, p.high}) {
     if (value.empty()) continue;
     Liggghts run;
-    run.script = script(run, with(p.name, fmt::format("fix {0} all property/global {0} peratomtype 0.5 {1}", p.name, value)), vielto_models);
+    run.script =
+        script(run, with(p.name, fmt::format("fix {0} all property/global {0} peratomtype 0.5 {1}", p.name, value)),
+               vielto_models);
     expect_error(run, {"vielto", fmt::format("property {} of type 2", p.name), "out of its range"});
   }
 }
@@ -88,28 +92,33 @@ TEST_P(BadProperty, OutOfItsRangeIsNamedWithItsTypeAndRange) {
 TEST_P(BadProperty, NotANumberIsRefused) {
   for (const char* value : {"nan", "inf", "soft"}) {
     Liggghts run;
-    run.script = script(run, with(GetParam().name, fmt::format("fix {0} all property/global {0} peratomtype 0.5 {1}", GetParam().name, value)),
+    run.script = script(run,
+                        with(GetParam().name, fmt::format("fix {0} all property/global {0} peratomtype 0.5 {1}",
+                                                          GetParam().name, value)),
                         vielto_models);
     expect_error(run, {"Expected floating point parameter"});
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Properties, BadProperty,
-                         testing::Values(Property{"youngsModulus", "0", ""}, Property{"stiffnessRatio", "0", "1.0001"},
-                                         Property{"frictionAngle", "-0.001", "90"}, Property{"normalDamping", "-0.001", ""},
-                                         Property{"tangentialDamping", "-0.001", ""}, Property{"rollingStiffnessFactor", "-0.001", ""},
-                                         Property{"twistingStiffnessFactor", "-0.001", ""}, Property{"rollingResistance", "-0.001", ""},
-                                         Property{"twistingResistance", "-0.001", ""}),
-                         property_name);
+INSTANTIATE_TEST_SUITE_P(
+    Properties, BadProperty,
+    testing::Values(Property{"youngsModulus", "0", ""}, Property{"stiffnessRatio", "0", "1.0001"},
+                    Property{"frictionAngle", "-0.001", "90"}, Property{"normalDamping", "-0.001", ""},
+                    Property{"tangentialDamping", "-0.001", ""}, Property{"rollingStiffnessFactor", "-0.001", ""},
+                    Property{"twistingStiffnessFactor", "-0.001", ""}, Property{"rollingResistance", "-0.001", ""},
+                    Property{"twistingResistance", "-0.001", ""}),
+    property_name);
 
 // The ends of the ranges are allowed, and the limits of LIGGGHTS' own models (E >= 5 MPa, nu <= 0.5) are not ViElTo's.
 TEST(GoodProperty, SoftStiffAndLimitingValuesRun) {
-  for (const char* line :
-       {"youngsModulus|1", "youngsModulus|1e15", "stiffnessRatio|1", "stiffnessRatio|1e-6", "frictionAngle|0", "frictionAngle|89.9",
-        "normalDamping|0", "normalDamping|5", "rollingStiffnessFactor|0", "rollingResistance|0", "twistingResistance|100"}) {
+  for (const char* line : {"youngsModulus|1", "youngsModulus|1e15", "stiffnessRatio|1", "stiffnessRatio|1e-6",
+                           "frictionAngle|0", "frictionAngle|89.9", "normalDamping|0", "normalDamping|5",
+                           "rollingStiffnessFactor|0", "rollingResistance|0", "twistingResistance|100"}) {
     const std::string text = line, name = text.substr(0, text.find('|')), value = text.substr(text.find('|') + 1);
     Liggghts run;
-    run.script = script(run, with(name, fmt::format("fix {0} all property/global {0} peratomtype {1} {1}", name, value)), vielto_models);
+    run.script =
+        script(run, with(name, fmt::format("fix {0} all property/global {0} peratomtype {1} {1}", name, value)),
+               vielto_models);
     const Outcome outcome = run.start();
     EXPECT_EQ(outcome.status, 0) << line << "\n" << outcome.text;
   }
@@ -147,7 +156,8 @@ INSTANTIATE_TEST_SUITE_P(
                     // a third of ViElTo has no meaning; LIGGGHTS then looks among its own models and does not find it
                     Line{"other_normal_model", "model hooke tangential vielto", {"Unknown tangential model"}},
                     Line{"other_tangential_model", "model vielto tangential history", {"Unknown normal model"}},
-                    Line{"rolling_without_its_normal_model", "model hooke tangential history rolling_friction vielto",
+                    Line{"rolling_without_its_normal_model",
+                         "model hooke tangential history rolling_friction vielto",
                          {"Unknown rolling model"}}),
     line_name);
 #undef VIELTO
@@ -160,20 +170,22 @@ TEST(BadPropertyOnTwoRanks, IsNamedOnce) {
 
 // ---- the script command ----
 
-// The half period against its formula: normal mode of the stiffest pair, wall included; k_n = 2 E R for a pair, 8/3 E R on a wall, but m_eff = m/2
-// and m: the pair is the faster one. Rolling and twisting off, little tangential stiffness.
+// The half period against its formula: normal mode of the stiffest pair, wall included; k_n = 2 E R for a pair, 8/3 E R
+// on a wall, but m_eff = m/2 and m: the pair is the faster one. Rolling and twisting off, little tangential stiffness.
 TEST(HalfPeriodCommand, SetsTheVariable) {
   Liggghts run;
   Material m;
   m.rollingStiffnessFactor = m.twistingStiffnessFactor = 0;
   m.stiffnessRatio = 0.01;
-  run.script = head(run, {Sphere()}, {m}, 0.05) + "vielto half_period tc radius 0.003 density 1400\nprint \"tc=${tc}.\"\n";
+  run.script =
+      head(run, {Sphere()}, {m}, 0.05) + "vielto half_period tc radius 0.003 density 1400\nprint \"tc=${tc}.\"\n";
   const Outcome outcome = run.start();
   ASSERT_EQ(outcome.status, 0) << outcome.text;
   const std::size_t at = outcome.text.rfind("tc=");
   ASSERT_NE(at, std::string::npos);
   const double mass = 1400 * 4.0 / 3 * pi * 2.7e-8;
-  EXPECT_NEAR(std::stod(outcome.text.substr(at + 3)) / (pi * std::sqrt(mass / 2 / (4 * 2e6 * 0.003))), 1, 1e-11);  // printed with 12 digits
+  EXPECT_NEAR(std::stod(outcome.text.substr(at + 3)) / (pi * std::sqrt(mass / 2 / (4 * 2e6 * 0.003))), 1,
+              1e-11);  // printed with 12 digits
 }
 
 TEST(ViEltoCommand, ErrorStopsWithItsWords) {
@@ -183,8 +195,8 @@ TEST(ViEltoCommand, ErrorStopsWithItsWords) {
 }
 
 TEST(ViEltoCommand, UnknownFormIsAnError) {
-  for (const char* form : {"vielto", "vielto nonsense", "vielto half_period tc radius 0.003", "vielto half_period tc diameter 1 density 2",
-                           "vielto half_period tc radius -1 density 2"}) {
+  for (const char* form : {"vielto", "vielto nonsense", "vielto half_period tc radius 0.003",
+                           "vielto half_period tc diameter 1 density 2", "vielto half_period tc radius -1 density 2"}) {
     Liggghts run;
     run.script = head(run, {Sphere()}, {Material()}, 0.05) + form + "\n";
     expect_error(run, {"vielto:"});
@@ -193,7 +205,8 @@ TEST(ViEltoCommand, UnknownFormIsAnError) {
 
 TEST(ViEltoCommand, HalfPeriodBeforeThePairStyleIsAnError) {
   Liggghts run;
-  run.script = settings_head() + grains(run, {Sphere()}, 0.05) + properties({Material()}) + "vielto half_period tc radius 0.003 density 2\n";
+  run.script = settings_head() + grains(run, {Sphere()}, 0.05) + properties({Material()}) +
+               "vielto half_period tc radius 0.003 density 2\n";
   expect_error(run, {"needs 'pair_style gran model vielto"});
 }
 

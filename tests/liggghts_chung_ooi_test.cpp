@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/* The eight benchmark impacts of Chung and Ooi (2011), Granular Matter 13:643, through `liggghts`: their bodies, speeds, restitution
-   and friction. Tests 1 and 2 are Hertzian there; here this law's own closed forms stand. Set as there: no rolling and twisting
-   resistance, no tangential dashpot, k_s/k_n = 2(1 - nu)/(2 - nu) (Mindlin's ratio of the material's Poisson number nu), no tension
-   (limitForce on), c_n = 1. Every impact is also compared with the independent integrator.
+/* The eight benchmark impacts of Chung and Ooi (2011), Granular Matter 13:643, through `liggghts`: their bodies,
+   speeds, restitution and friction. Tests 1 and 2 are Hertzian there; here this law's own closed forms stand. Set as
+   there: no rolling and twisting resistance, no tangential dashpot, k_s/k_n = 2(1 - nu)/(2 - nu) (Mindlin's ratio of
+   the material's Poisson number nu), no tension (limitForce on), c_n = 1. Every impact is also compared with the
+   independent integrator.
 
-   With x = omega_0 dt = pi/1000 and damping ratio zeta, allowed: (3 zeta x + 2 x^2) v_n (lateness, start and end of the dashpot;
-   leapfrog) and, where the contact first sticks, slip counted half a step too long: a spring too long by v_t dt/2 for half a period
-   of the slip, omega_t = sqrt(7/2 nu) omega_0, makes sqrt(7/2 nu) x v_t/7 <= 0.27 x v_t. For spins times R 5/2 of all that. */
+   With x = omega_0 dt = pi/1000 and damping ratio zeta, allowed: (3 zeta x + 2 x^2) v_n (lateness, start and end of the
+   dashpot; leapfrog) and, where the contact first sticks, slip counted half a step too long: a spring too long by v_t
+   dt/2 for half a period of the slip, omega_t = sqrt(7/2 nu) omega_0, makes sqrt(7/2 nu) x v_t/7 <= 0.27 x v_t. For
+   spins times R 5/2 of all that. */
 #include "contact_reference.h"
 
 namespace {
@@ -57,8 +59,10 @@ struct Result {
   double greatest_force, greatest_overlap, duration;  // of the first impact, of the independent integrator
 };
 
-// All impacts of one kind in one run, a plane (z = 0) or pairs along z, far from each other; compared with the integrator.
-std::vector<Result> run_impacts(std::vector<Pair> impacts, bool plane, const Material& m, std::vector<Table>* frames = nullptr) {
+// All impacts of one kind in one run, a plane (z = 0) or pairs along z, far from each other; compared with the
+// integrator.
+std::vector<Result> run_impacts(std::vector<Pair> impacts, bool plane, const Material& m,
+                                std::vector<Table>* frames = nullptr) {
   const Sphere ground{1, 1, 1, Vec::Zero(), Vec::Zero(), Vec::Zero()};
   const double R = impacts[0].one.radius, closing = impacts[0].two.v[2] - impacts[0].one.v[2];
   const auto contact_of = [&](const Pair& p) {
@@ -80,7 +84,8 @@ std::vector<Result> run_impacts(std::vector<Pair> impacts, bool plane, const Mat
   const long steps = std::lround(1.2 * steps_per_contact);
   Liggghts run;
   run.script = head(run, start, {m}, (side + 2) * spacing, settings);
-  if (plane) run.script += fmt::format("fix wall all wall/gran {} primitive type 1 zplane 0.0 {}\n", vielto_models, settings);
+  if (plane)
+    run.script += fmt::format("fix wall all wall/gran {} primitive type 1 zplane 0.0 {}\n", vielto_models, settings);
   run.script += fmt::format("timestep {:.17g}\nfix move all nve/sphere\n{}run {}\n", dt,
                             dump_grains("states", frames ? 1 : steps), steps);
   run.must();
@@ -155,9 +160,12 @@ TEST(ChungOoi3, RestitutionOfANormalImpactIsTheOneAskedFor) {
 }
 
 /* Rebound of a sphere that slips throughout with slip speed `slip` (along y) at normal speed vn: rigid body values
-     dv = -mu (1 + e) vn,  dw R = 5/2 of it,
-   where the spring is at its cap at once (k_s slip > mu k_n vn) and slip is left at the end (slip > 7/2 mu (1 + e) vn). Tolerance as
-   above, and the time the spring takes to reach the cap that the dashpot's jump sets, 2 (mu zeta vn)^2/(nu slip). */
+
+     dv = -mu (1 + e) vn,   dw R = 5/2 of it
+
+   where the spring is at its cap at once (k_s slip > mu k_n vn) and slip is left at the end
+   (slip > 7/2 mu (1 + e) vn). Tolerance as above, and the time the spring takes to reach the cap that the dashpot's
+   jump sets, 2 (mu zeta vn)^2/(nu slip). */
 int expect_gross_sliding(const Sphere& before, const Sphere& after, const Material& m, double mu, double e, double vn,
                          double slip) {
   if (slip < 3.5 * mu * (1 + e) * vn) return 0;
@@ -171,7 +179,8 @@ int expect_gross_sliding(const Sphere& before, const Sphere& after, const Materi
 
 TEST(ChungOoi4, ObliqueImpactAtConstantSpeedAndVaryingAngle) {
   const double mu = 0.092, e = 0.98, speed = 3.9, R = 0.0025;
-  for (const Solid& solid : {Solid{"aluminium oxide", 3.8e11, 0.23, 4000}, Solid{"aluminium alloy", 7.0e10, 0.33, 2700}}) {
+  for (const Solid& solid :
+       {Solid{"aluminium oxide", 3.8e11, 0.23, 4000}, Solid{"aluminium alloy", 7.0e10, 0.33, 2700}}) {
     SCOPED_TRACE(solid.name);
     const Material m = material(solid, mu, damping_for(e));
     // all impacts of a run touch in the middle of a step only if the normal speed is the same: one run an angle

@@ -2,13 +2,19 @@
 /* Head-on impacts through `liggghts` against the closed forms of the linear spring and dashpot.
 
      m_eff u'' + 2 sqrt(k_n m_eff) beta_n u' + c_n k_n u = 0,   omega_0^2 = c_n k_n/m_eff,   zeta = beta_n/sqrt(c_n)
-     until the overlap vanishes:      e = exp(-pi zeta/sqrt(1 - zeta^2)),        t_c = pi/(omega_0 sqrt(1 - zeta^2))
-     until the force vanishes (limitForce on): u'' = 0 where omega_d t = 2 arccos(zeta), and there u' = -v_0 exp(-zeta omega_0 t), so
-                                      e = exp(-2 zeta arccos(zeta)/sqrt(1 - zeta^2))     (Schwager and Poeschel 2007)
+
+   Until the overlap vanishes:
+
+     e = exp(-pi zeta/sqrt(1 - zeta^2)),   t_c = pi/(omega_0 sqrt(1 - zeta^2))
+
+   Until the force vanishes (limitForce on; Schwager and Poeschel 2007): u'' = 0 where omega_d t = 2 arccos(zeta), and
+   there u' = -v_0 exp(-zeta omega_0 t), so
+
+     e = exp(-2 zeta arccos(zeta)/sqrt(1 - zeta^2))
 
    Tolerance, with x = omega_0 dt. LIGGGHTS' leapfrog takes the dashpot's velocity half a step late, as if the mass were
-   m (1 - zeta x): ln e changes by pi zeta^2 x/(2 (1 - zeta^2)^1.5). The dashpot sets in and ends at a step, not at the touch: at
-   most half a step either side, each changes ln e by zeta x. The undamped remainder is of second order: x^2. */
+   m (1 - zeta x): ln e changes by pi zeta^2 x/(2 (1 - zeta^2)^1.5). The dashpot sets in and ends at a step, not at the
+   touch: at most half a step either side, each changes ln e by zeta x. The undamped rest is of second order: x^2. */
 #include "contact_reference.h"
 
 namespace {
@@ -17,7 +23,9 @@ using namespace vielto_test;
 
 double damping_ratio(double beta, double cn) { return beta / std::sqrt(cn); }
 double restitution(double zeta) { return std::exp(-pi * zeta / std::sqrt(1 - zeta * zeta)); }
-double restitution_without_tension(double zeta) { return std::exp(-2 * zeta * std::acos(zeta) / std::sqrt(1 - zeta * zeta)); }
+double restitution_without_tension(double zeta) {
+  return std::exp(-2 * zeta * std::acos(zeta) / std::sqrt(1 - zeta * zeta));
+}
 
 double tolerance_of_log(double zeta, double x) {
   return pi * zeta * zeta * x / (2 * std::pow(1 - zeta * zeta, 1.5)) + 2 * zeta * x + x * x;
@@ -67,8 +75,8 @@ struct Measured {
   double restitution, contact_time, greatest_overlap;
 };
 
-/* Flies onto the partner along z with v0; `steps` of the undamped contact time. The first touch lies in the middle of a step, where
-   the force sets in as the leapfrog has it. */
+/* Flies onto the partner along z with v0; `steps` of the undamped contact time. The first touch lies in the middle of a
+   step, where the force sets in as the leapfrog has it. */
 Measured impact(const Case& c, double steps, Program program = Program::ours) {
   const bool wall = c.partner != Partner::sphere;
   const Impact physics = wall ? wall_impact(2) : pair_impact();
@@ -130,23 +138,24 @@ TEST_P(NormalImpact, RestitutionContactTimeAndOverlapFollowTheClosedForm) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    ClosedForm, NormalImpact,
-    testing::Values(Case{Partner::sphere, 4, 0.3, false}, Case{Partner::sphere, 1, 0.3, false},
-                    Case{Partner::sphere, 4, 0, false}, Case{Partner::sphere, 4, 1.2, false},
-                    Case{Partner::sphere, 4, 0.3, true}, Case{Partner::sphere, 1, 0.3, true},
-                    Case{Partner::sphere, 1, 0.8, true}, Case{Partner::primitive, 4, 0.3, false},
-                    Case{Partner::primitive, 1, 0.3, false}, Case{Partner::primitive, 1, 0.3, true},
-                    Case{Partner::mesh, 4, 0.3, false}, Case{Partner::mesh, 1, 0.3, false},
-                    Case{Partner::mesh, 4, 0.3, true}),
-    name);
+INSTANTIATE_TEST_SUITE_P(ClosedForm, NormalImpact,
+                         testing::Values(Case{Partner::sphere, 4, 0.3, false}, Case{Partner::sphere, 1, 0.3, false},
+                                         Case{Partner::sphere, 4, 0, false}, Case{Partner::sphere, 4, 1.2, false},
+                                         Case{Partner::sphere, 4, 0.3, true}, Case{Partner::sphere, 1, 0.3, true},
+                                         Case{Partner::sphere, 1, 0.8, true}, Case{Partner::primitive, 4, 0.3, false},
+                                         Case{Partner::primitive, 1, 0.3, false},
+                                         Case{Partner::primitive, 1, 0.3, true}, Case{Partner::mesh, 4, 0.3, false},
+                                         Case{Partner::mesh, 1, 0.3, false}, Case{Partner::mesh, 4, 0.3, true}),
+                         name);
 
 // Undamped the leapfrog is of second order: the error of the greatest overlap and of e falls by 4 with half the step.
-// Damped it is of first order, because the dashpot's velocity is half a step late. The touch lies at the same place of a step.
+// Damped it is of first order, because the dashpot's velocity is half a step late. The touch lies at the same place of
+// a step.
 TEST(NormalImpactConvergence, IsOfFirstOrderWithDashpot) {
   const Case c = {Partner::sphere, 1, 0.3, true};  // no jump of the force at the end, so only the lateness is left
   const double e = restitution_without_tension(0.3);
-  const double error[3] = {impact(c, 100).restitution - e, impact(c, 200).restitution - e, impact(c, 400).restitution - e};
+  const double error[3] = {impact(c, 100).restitution - e, impact(c, 200).restitution - e,
+                           impact(c, 400).restitution - e};
   // ratios of a first-order error; its second-order part is of relative size x = 0.03 at 100 steps
   EXPECT_NEAR(error[0] / error[1], 2, 0.15);
   EXPECT_NEAR(error[1] / error[2], 2, 0.08);
@@ -162,7 +171,8 @@ TEST(NormalImpactConvergence, WithoutDashpotTheSpeedComesBackToSecondOrder) {
 }
 
 TEST(NormalImpactWallRadius, FactorSetsTheStiffnessOfTheWall) {
-  // R_2 = factor R_1 enters k_n only: the greatest overlap v0/omega_0 tells it. Tolerance: x^2 of the leapfrog, 400 steps.
+  // R_2 = factor R_1 enters k_n only: the greatest overlap v0/omega_0 tells it. Tolerance: x^2 of the leapfrog, 400
+  // steps.
   for (const double factor : {1.0, 2.0, 5.0}) {
     const double omega = wall_impact(factor).omega(4), dt = pi / omega / 400;
     std::vector<Material> types = {soft(), hard()};
@@ -189,8 +199,8 @@ TEST(NormalImpactStock, StockProgramWithTheLibraryPreloadedIsTheSame) {
   }
 }
 
-// The integrator that later tests use as a reference, on the closed forms. Its step, the contact time over 4000, leaves the first
-// and the last step, in which the dashpot sets in and ends: zeta x each in ln e.
+// The integrator that later tests use as a reference, on the closed forms. Its step, the contact time over 4000, leaves
+// the first and the last step, in which the dashpot sets in and ends: zeta x each in ln e.
 TEST(ContactReference, MeetsTheClosedForms) {
   for (const bool limit : {false, true}) {
     Law law;
@@ -198,12 +208,14 @@ TEST(ContactReference, MeetsTheClosedForms) {
     law.limitForce = limit;
     Material m;
     m.normalDamping = 0.4;
-    const Sphere a{1, R1, 1375, {0, 0, R1 + R2}, {0, 0, -v0}, Vec::Zero()}, b{1, R2, 1375, Vec::Zero(), Vec::Zero(), Vec::Zero()};
+    const Sphere a{1, R1, 1375, {0, 0, R1 + R2}, {0, 0, -v0}, Vec::Zero()},
+        b{1, R2, 1375, Vec::Zero(), Vec::Zero(), Vec::Zero()};
     Contact contact(a, b, m, m, law);
     const double tc = contact.time_scale();
     contact.run(3 * tc);
     const double e = (contact.one().v - contact.two().v)[2] / v0;
-    EXPECT_NEAR(std::log(e), std::log(limit ? restitution_without_tension(0.4) : restitution(0.4)), 2 * 0.4 * pi / 4000);
+    EXPECT_NEAR(std::log(e), std::log(limit ? restitution_without_tension(0.4) : restitution(0.4)),
+                2 * 0.4 * pi / 4000);
   }
 }
 

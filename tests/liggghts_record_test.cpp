@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// `fix vielto/record` through `liggghts`: rows are means, signs, parts, energy accounts against closed forms, and the stops that keep a
-// false number from becoming a result.
+// `fix vielto/record` through `liggghts`: rows are means, signs, parts, energy accounts against closed forms, and the
+// stops that keep a false number from becoming a result.
 #include "contact_reference.h"
 
 namespace {
@@ -30,12 +30,14 @@ void expect_relative(double value, double expected, double relative = half_of_la
   EXPECT_NEAR(value, expected, relative * std::fabs(expected));
 }
 
-// Grains at rest on two plates: torque about the axis is y m g for the part that carries them; the weight is in the forces.
-// Gravity's own moment is the opposite. Tolerance: the last digit of the file.
+// Grains at rest on two plates: torque about the axis is y m g for the part that carries them; the weight is in the
+// forces. Gravity's own moment is the opposite. Tolerance: the last digit of the file.
 TEST(RecordRows, RestingGrainsLoadTheirPartByWeightTimesLever) {
   Liggghts run;
-  run.script = head(run, {resting(0.01, 0.03), resting(-0.02, 0.01), resting(0.11, -0.02)}, {Material()}, 0.3) + plates(run) +
-               "fix record all vielto/record every 50 file torque.csv speed 2 axis 1 0 0 origin 0 0.005 0 part tray a part drum b "
+  run.script = head(run, {resting(0.01, 0.03), resting(-0.02, 0.01), resting(0.11, -0.02)}, {Material()}, 0.3) +
+               plates(run) +
+               "fix record all vielto/record every 50 file torque.csv speed 2 axis 1 0 0 origin 0 0.005 0 part tray a "
+               "part drum b "
                "header material millet header note two words speed 2\nrun 200\n";
   run.must();
   const Table t = run.csv("torque.csv");
@@ -60,21 +62,41 @@ TEST(RecordRows, RestingGrainsLoadTheirPartByWeightTimesLever) {
     EXPECT_NEAR(t.at(k, "kinetic_J"), 0, 1e-25);
   }
   const std::string text = run.read("torque.csv");
-  for (const char* line : {"# material=millet\n", "# note=two words\n", "# speed=2\n", "# dt=1e-05\n", "# interval_steps=50\n"})
+  for (const char* line :
+       {"# material=millet\n", "# note=two words\n", "# speed=2\n", "# dt=1e-05\n", "# interval_steps=50\n"})
     EXPECT_NE(text.find(line), std::string::npos) << line;
 }
 
-// A row is the mean over its steps, neither a sample nor shifted: against the mean of what the mesh shows at every single step, for a
-// grain that bounces, slips and spins. `each` adds one column a mesh; the vector of the fix holds the last row.
+// The stock program knows the fix once a ViElTo pair_style has been given, and writes the same file.
+TEST(RecordRows, OfTheStockProgramWithTheLibraryPreloadedAreTheSame) {
+  std::string text[2];
+  for (const Program program : {Program::ours, Program::stock}) {
+    Liggghts run;
+    const Sphere thrown{1, R, 1375, {0, 0.02, R + 1e-6}, {0.3, 0.1, -0.2}, {20, 70, 100}};
+    run.script = head(run, {thrown}, {Material()}, 0.3) + plates(run) +
+                 "fix record all vielto/record every 20 file torque.csv speed 1 part tray a part drum b\nrun 100\n";
+    run.must(1, program);
+    text[program == Program::stock] = run.read("torque.csv");
+  }
+  EXPECT_EQ(text[0], text[1]);
+  EXPECT_GT(text[0].size(), 500u);
+}
+
+// A row is the mean over its steps, neither a sample nor shifted: against the mean of what the mesh shows at every
+// single step, for a grain that bounces, slips and spins. `each` adds one column a mesh; the vector of the fix holds
+// the last row.
 TEST(RecordRows, AreMeansOverTheStepsOfTheirInterval) {
   Liggghts run;
   const Sphere thrown{1, R, 1375, {0.045, 0.02, R + 1e-6}, {0.3, 0.1, -0.2}, {20, 70, 100}};
   run.script = head(run, {thrown, resting(0.1, 0.03)}, {Material()}, 0.3) + plates(run) +
                "fix turn all move/mesh mesh b rotate origin 0.1 0 0 axis 0 0 1 period 1\n"
-               "fix record all vielto/record every 40 file torque.csv speed 1 axis 0 0 1 origin 0.1 0 0 part paddles a b each paddles\n"
-               "variable ma equal -f_a[6]+0.1*f_a[2]\nvariable mb equal -f_b[6]\nvariable fa equal -f_a[3]\nvariable fb equal -f_b[3]\n"
+               "fix record all vielto/record every 40 file torque.csv speed 1 axis 0 0 1 origin 0.1 0 0 part paddles a "
+               "b each paddles\n"
+               "variable ma equal -f_a[6]+0.1*f_a[2]\nvariable mb equal -f_b[6]\nvariable fa equal -f_a[3]\nvariable "
+               "fb equal -f_b[3]\n"
                "variable last equal f_record[2]\nvariable turn equal f_record[1]\n"
-               "thermo_style custom step v_ma v_mb v_fa v_fb v_last v_turn\nthermo_modify format float %.17g\nthermo 1\nrun 400\n";
+               "thermo_style custom step v_ma v_mb v_fa v_fb v_last v_turn\nthermo_modify format float %.17g\nthermo "
+               "1\nrun 400\n";
   run.must();
   const Table rows = run.csv("torque.csv"), steps = run.thermo();
   ASSERT_EQ(rows.rows.size(), 10u);
@@ -98,19 +120,22 @@ TEST(RecordRows, AreMeansOverTheStepsOfTheirInterval) {
   EXPECT_GT(greatest, 1e-5);
 }
 
-// A plate turns under a sphere at rest: the drive supplies the twisting couple T = mu_tw tan(phi') m g L, positive, whichever way the
-// plate turns, and half of its work heats the contact (the other half is the sphere's spin). T/k_tw/omega, the filling of the spring,
-// is 0.1 % of the spin-up.
+// A plate turns under a sphere at rest: the drive supplies the twisting couple T = mu_tw tan(phi') m g L, positive,
+// whichever way the plate turns, and half of its work heats the contact (the other half is the sphere's spin).
+// T/k_tw/omega, the filling of the spring, is 0.1 % of the spin-up.
 TEST(RecordSign, TorqueIsPositiveWhereTheDriveSupplies) {
   const double omega = 40, T = 0.1 * std::tan(25 * pi / 180) * mass() * g * 4.0 / 3 * R, I = 0.4 * mass() * R * R;
   const long steps = std::lround(0.5 * omega * I / T / dt / 100) * 100;  // half way to the plate's speed
   for (const int direction : {1, -1}) {
     Liggghts run;
     run.script = head(run, {resting(0, 0)}, {Material()}, 0.3) + plates(run) +
-                 fmt::format("fix turn all move/mesh mesh a rotate origin 0 0 0 axis 0 0 {} period {:.17g}\n", direction, 2 * pi / omega) +
-                 fmt::format("fix record all vielto/record every {0} file torque.csv speed {1:.17g} axis 0 0 {2} part plate a energy on\n"
-                             "run {0}\n",
-                             steps, omega / (2 * pi), direction);
+                 fmt::format("fix turn all move/mesh mesh a rotate origin 0 0 0 axis 0 0 {} period {:.17g}\n",
+                             direction, 2 * pi / omega) +
+                 fmt::format(
+                     "fix record all vielto/record every {0} file torque.csv speed {1:.17g} axis 0 0 {2} part plate a "
+                     "energy on\n"
+                     "run {0}\n",
+                     steps, omega / (2 * pi), direction);
     run.must();
     const Table t = run.csv("torque.csv");
     const double time = static_cast<double>(steps) * dt, spin = T / I * time;
@@ -122,8 +147,9 @@ TEST(RecordSign, TorqueIsPositiveWhereTheDriveSupplies) {
   }
 }
 
-/* Energy lost to each mechanism in cases with a closed form. Normal dashpot: 1/2 m v^2 (1 - e^2) with e of the impact. Sliding: a sphere
-   thrown without spin that ends rolling has lost 1/7 m v^2. Rolling: braked from v by dv at the capped moment, 7/10 m (v^2 - v'^2). */
+/* Energy lost to each mechanism in cases with a closed form. Normal dashpot: 1/2 m v^2 (1 - e^2) with e of the impact.
+   Sliding: a sphere thrown without spin that ends rolling has lost 1/7 m v^2. Rolling: braked from v by dv at the
+   capped moment, 7/10 m (v^2 - v'^2). */
 TEST(RecordEnergy, DissipationByMechanismMeetsTheClosedForms) {
   {
     Material m;
@@ -172,14 +198,18 @@ TEST(RecordEnergy, DissipationByMechanismMeetsTheClosedForms) {
   }
 }
 
-/* A shaken crowd on a turning plate: shaft work plus the start's energy is kinetic, elastic and potential energy plus all dissipation.
-   The accounts take the leapfrog's velocities in the middle of a step against forces at its end, first order in x = omega dt = 0.03
-   where dashpots act: 1 % of what is dissipated, as asked of every reported power. */
+/* A shaken crowd on a turning plate: shaft work plus the start's energy is kinetic, elastic and potential energy plus
+   all dissipation. The accounts take the leapfrog's velocities in the middle of a step against forces at its end, first
+   order in x = omega dt = 0.03 where dashpots act: 1 % of what is dissipated, as asked of every reported power. */
 TEST(RecordEnergy, ShaftWorkIsDissipationPlusChangeOfEnergy) {
   std::vector<Sphere> spheres;
   for (int i = 0; i < 40; i++)
-    spheres.push_back({1, 0.004, 1375, {0.009 * (i % 4) - 0.013, 0.009 * (i / 4 % 4) - 0.013, 0.0045 + 0.009 * (i / 16)},
-                       {0.1 * std::sin(i), 0.1 * std::cos(2 * i), 0}, {5, 0, 10.0 * std::sin(3 * i)}});
+    spheres.push_back({1,
+                       0.004,
+                       1375,
+                       {0.009 * (i % 4) - 0.013, 0.009 * (i / 4 % 4) - 0.013, 0.0045 + 0.009 * (i / 16)},
+                       {0.1 * std::sin(i), 0.1 * std::cos(2 * i), 0},
+                       {5, 0, 10.0 * std::sin(3 * i)}});
   Liggghts run;
   run.write("tray.stl", tray_stl(0.02));
   run.script = head(run, spheres, {Material()}, 0.3) +
@@ -187,7 +217,8 @@ TEST(RecordEnergy, ShaftWorkIsDissipationPlusChangeOfEnergy) {
                fmt::format("fix wall all wall/gran {} mesh n_meshes 1 meshes tray\n", vielto_models) +
                fmt::format("timestep 3e-6\nfix move all nve/sphere\nfix gravity all gravity {} vector 0 0 -1\n", g) +
                "fix turn all move/mesh mesh tray rotate origin 0 0 0 axis 0 0 1 period 0.25\n"
-               "fix record all vielto/record every 1000 file torque.csv speed 4 axis 0 0 1 part tray tray energy on\nrun 40000\n";
+               "fix record all vielto/record every 1000 file torque.csv speed 4 axis 0 0 1 part tray tray energy "
+               "on\nrun 40000\n";
   run.must();
   const Table t = run.csv("torque.csv");
   double kinetic = 0, potential = 0;
@@ -198,7 +229,8 @@ TEST(RecordEnergy, ShaftWorkIsDissipationPlusChangeOfEnergy) {
   double dissipated = 0;
   for (std::size_t k = 0; k < t.rows.size(); k++) {
     dissipated = 0;
-    for (const char* way : {"diss_normal_J", "diss_tangential_J", "diss_sliding_J", "diss_rolling_J", "diss_twisting_J"}) {
+    for (const char* way :
+         {"diss_normal_J", "diss_tangential_J", "diss_sliding_J", "diss_rolling_J", "diss_twisting_J"}) {
       EXPECT_GE(t.at(k, way), 0) << way;
       dissipated += t.at(k, way);
     }
@@ -256,17 +288,24 @@ const char* const record = "fix record all vielto/record every 100 file torque.c
 INSTANTIATE_TEST_SUITE_P(
     Reasons, RecordStops,
     testing::Values(
-        // grain 2 flies out of the box at x = 0.2 after 0.02 m at 1.9 m/s, in step 1053; the last row is that of step 1000
+        // grain 2 flies out of the box at x = 0.2 after 0.02 m at 1.9 m/s, in step 1053; the last row is that of step
+        // 1000
         Stop{"lost_grain",
              {resting(0, 0), {1, R, 1375, {0.18, 0.02, 0.1}, {1.9, 0, 0}, Vec::Zero()}},
              "",
              std::string("thermo_modify lost ignore norm no\n") + record + "\n",
              "step 1100|1 of 2 grains|grain 2 was lost|(0.199 0.02"},
         // 0.03 m times the weight of 7.063e-3 N
-        Stop{"torque_over_its_limit", {resting(0, 0), resting(0, 0.03)}, "", std::string(record) + "maxTorque 1e-4\n",
+        Stop{"torque_over_its_limit",
+             {resting(0, 0), resting(0, 0.03)},
+             "",
+             std::string(record) + "maxTorque 1e-4\n",
              "step 1 |torque of tray|0.0002119 N m|limit of 0.0001 N m (maxTorque)|acts on grain"},
         // half period sqrt-wise 3.6e-4 s of the wall: 1e-5 s is 0.03 of it
-        Stop{"time_step_over_its_limit", {resting(0, 0)}, "", std::string(record) + "dtLimit 0.01\n",
+        Stop{"time_step_over_its_limit",
+             {resting(0, 0)},
+             "",
+             std::string(record) + "dtLimit 0.01\n",
              "time step 1e-05 s|over the limit 0.01|take at most"},
         // thrown down at 1 m/s: overlap v/omega_0 = 1.2e-4 m
         Stop{"overlap_over_its_limit",
@@ -275,18 +314,37 @@ INSTANTIATE_TEST_SUITE_P(
              "",
              "overlap of grain 2|of mesh a|limit of 0.5 % (maxOverlap)"},
         Stop{"overlap_of_a_pair",
-             {{1, R, 1375, {0, 0, 0.04}, Vec::Zero(), Vec::Zero()}, {1, R, 1375, {0, 0, 0.051}, {0, 0, -2}, Vec::Zero()}},
+             {{1, R, 1375, {0, 0, 0.04}, Vec::Zero(), Vec::Zero()},
+              {1, R, 1375, {0, 0, 0.051}, {0, 0, -2}, Vec::Zero()}},
              "maxOverlap 0.005",
              "",
              "overlap of grain |grain 1|grain 2|maxOverlap"},
-        Stop{"no_such_mesh", {resting(0, 0)}, "", "fix record all vielto/record every 10 file t.csv speed 1 part tray c\n", "part tray"},
-        Stop{"mesh_that_records_no_torque", {resting(0, 0)}, "",
-             "fix record all vielto/record every 10 file t.csv speed 1 part tray gravity\n", "fix gravity is no mesh/surface/stress"},
-        Stop{"no_file", {resting(0, 0)}, "", "fix record all vielto/record every 10 speed 1 part tray a\n", "file F is required"},
-        Stop{"folder_that_is_not_there", {resting(0, 0)}, "",
-             "fix record all vielto/record every 10 file no/where.csv speed 1 part tray a\n", "cannot write no/where.csv"},
+        Stop{"no_such_mesh",
+             {resting(0, 0)},
+             "",
+             "fix record all vielto/record every 10 file t.csv speed 1 part tray c\n",
+             "part tray"},
+        Stop{"mesh_that_records_no_torque",
+             {resting(0, 0)},
+             "",
+             "fix record all vielto/record every 10 file t.csv speed 1 part tray gravity\n",
+             "fix gravity is no mesh/surface/stress"},
+        Stop{"no_file",
+             {resting(0, 0)},
+             "",
+             "fix record all vielto/record every 10 speed 1 part tray a\n",
+             "file F is required"},
+        Stop{"folder_that_is_not_there",
+             {resting(0, 0)},
+             "",
+             "fix record all vielto/record every 10 file no/where.csv speed 1 part tray a\n",
+             "cannot write no/where.csv"},
         Stop{"unknown_keyword", {resting(0, 0)}, "", std::string(record) + "interval 3\n", "unknown keyword interval"},
-        Stop{"keyword_without_value", {resting(0, 0)}, "", std::string(record) + "maxTorque\n", "keyword maxTorque lacks a value"}),
+        Stop{"keyword_without_value",
+             {resting(0, 0)},
+             "",
+             std::string(record) + "maxTorque\n",
+             "keyword maxTorque lacks a value"}),
     stop_name);
 
 // On two ranks a stop that only one of them sees ends both, with its line.

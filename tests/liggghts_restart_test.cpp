@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/* A restart through `liggghts` brings positions, velocities and contact history (between grains and with a moving mesh) back exactly,
-   and the record goes on as one file. What follows is not bit for bit the run that was not broken off: LIGGGHTS takes the first forces
-   with full-step velocities and with a moving mesh that has no velocity yet, which kicks grains on it by gamma v_wall dt/(2 m), some mm/s.
-   So the state is asked exactly, what follows by its means. */
+/* A restart through `liggghts` brings positions, velocities and contact history (between grains and with a moving mesh)
+   back exactly, and the record goes on as one file. What follows is not bit for bit the run that was not broken off:
+   LIGGGHTS takes the first forces with full-step velocities and with a moving mesh that has no velocity yet, which
+   kicks grains on it by gamma v_wall dt/(2 m), some mm/s. So the state is asked exactly, what follows by its means. */
 #include "sheared_bed.h"
 
 namespace {
@@ -13,7 +13,8 @@ const long before = 12000, after = 12000, row = 500;
 
 TEST(Restart, BringsStateAndContactHistoryBackExactly) {
   Liggghts run;
-  run.script = bed_start(run) + bed_walls(run, "A", before, row) + fmt::format("run {}\nwrite_restart half.restart\n", before);
+  run.script =
+      bed_start(run) + bed_walls(run, "A", before, row) + fmt::format("run {}\nwrite_restart half.restart\n", before);
   run.must();
   run.script = bed_restart("half.restart") + bed_walls(run, "B", before, row) + "run 0\n";
   run.must();
@@ -27,8 +28,10 @@ TEST(Restart, BringsStateAndContactHistoryBackExactly) {
     EXPECT_EQ(a.w(i), b.w(i)) << i;
   }
   for (const bool pairs : {true, false}) {
-    const std::vector<Table> contactsA = run.dump(pairs ? "pairA" : "wallA"), contactsB = run.dump(pairs ? "pairB" : "wallB");
-    const auto historyA = history(frame_of(contactsA, before), pairs), historyB = history(frame_of(contactsB, before), pairs);
+    const std::vector<Table> contactsA = run.dump(pairs ? "pairA" : "wallA"),
+                             contactsB = run.dump(pairs ? "pairB" : "wallB");
+    const auto historyA = history(frame_of(contactsA, before), pairs),
+               historyB = history(frame_of(contactsB, before), pairs);
     EXPECT_GT(historyA.size(), pairs ? 12u : 6u);
     EXPECT_EQ(historyA, historyB);
     double force = 0, rolling = 0, twisting = 0;
@@ -43,8 +46,9 @@ TEST(Restart, BringsStateAndContactHistoryBackExactly) {
   }
 }
 
-// The record of a broken-off run and of its restart is one file: one header, every row once and in order, those up to the restart as
-// they were, accounts and turns going on. The mean torque afterwards is that of the unbroken run within what rows scatter.
+// The record of a broken-off run and of its restart is one file: one header, every row once and in order, those up to
+// the restart as they were, accounts and turns going on. The mean torque afterwards is that of the unbroken run within
+// what rows scatter.
 TEST(Restart, CarriesTheRecordOn) {
   Liggghts whole;
   whole.script = bed_start(whole) + bed_walls(whole, "A", before, row) + fmt::format("run {}\n", before + after);
@@ -52,14 +56,16 @@ TEST(Restart, CarriesTheRecordOn) {
   Liggghts run;
   // broken off two rows after the restart was written: those rows are to be cut off
   run.script = bed_start(run) + bed_walls(run, "A", before, row) +
-               fmt::format("restart {} half.restart\nrun {}\nshell mv half.restart.{} half.restart\n", before, before + 2 * row, before);
+               fmt::format("restart {} half.restart\nrun {}\nshell mv half.restart.{} half.restart\n", before,
+                           before + 2 * row, before);
   run.must();
   const Table first = run.csv("torque.csv");
   ASSERT_EQ(first.rows.size(), static_cast<std::size_t>(before / row + 2));
   run.script = bed_restart("half.restart") + bed_walls(run, "B", before, row) + fmt::format("run {}\n", after);
   run.must();
   const Table joined = run.csv("torque.csv"), unbroken = whole.csv("torque.csv");
-  const std::size_t rows = static_cast<std::size_t>((before + after) / row), kept = static_cast<std::size_t>(before / row);
+  const std::size_t rows = static_cast<std::size_t>((before + after) / row),
+                    kept = static_cast<std::size_t>(before / row);
   ASSERT_EQ(joined.rows.size(), rows);
   ASSERT_EQ(unbroken.rows.size(), rows);
   double mean[2] = {0, 0}, square[2] = {0, 0};
@@ -78,8 +84,10 @@ TEST(Restart, CarriesTheRecordOn) {
     }
   }
   // accounts are sums since the rotation began: none starts anew, each grows by some percent from row to row
-  for (const char* account : {"work_J", "diss_normal_J", "diss_tangential_J", "diss_sliding_J", "diss_rolling_J", "diss_twisting_J"})
-    EXPECT_NEAR(joined.at(kept, account) / joined.at(kept - 1, account), unbroken.at(kept, account) / unbroken.at(kept - 1, account), 0.02)
+  for (const char* account :
+       {"work_J", "diss_normal_J", "diss_tangential_J", "diss_sliding_J", "diss_rolling_J", "diss_twisting_J"})
+    EXPECT_NEAR(joined.at(kept, account) / joined.at(kept - 1, account),
+                unbroken.at(kept, account) / unbroken.at(kept - 1, account), 0.02)
         << account;
   // standard error of the difference of two means of 24 rows, rows taken as correlated in pairs; four of them
   const double scatter = std::sqrt(square[0] - mean[0] * mean[0]);
@@ -87,7 +95,8 @@ TEST(Restart, CarriesTheRecordOn) {
   EXPECT_GT(mean[0], 2 * scatter * std::sqrt(2.0 / 12));
   std::size_t headers = 0;
   const std::string text = run.read("torque.csv");
-  for (std::size_t at = text.find("step,time_s"); at != std::string::npos; at = text.find("step,time_s", at + 1)) headers++;
+  for (std::size_t at = text.find("step,time_s"); at != std::string::npos; at = text.find("step,time_s", at + 1))
+    headers++;
   EXPECT_EQ(headers, 1u);
 }
 

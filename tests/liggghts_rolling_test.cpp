@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/* One sphere on a plane under gravity, through `liggghts`: rolling, spinning and sliding that decay at the cap, and the slope at
-   which the sphere leaves. I = 2/5 m R^2, L = 2 R_1R_2/(R_1 + R_2), R_2 = wallRadiusFactor R_1, F_n = m g cos(slope). */
+/* One sphere on a plane under gravity, through `liggghts`: rolling, spinning and sliding that decay at the cap, and the
+   slope at which the sphere leaves.
+
+     I = 2/5 m R^2,   L = 2 R_1R_2/(R_1 + R_2),   R_2 = wallRadiusFactor R_1,   F_n = m g cos(slope) */
 #include "contact_reference.h"
 
 namespace {
@@ -33,9 +35,12 @@ std::string level_gravity() { return fmt::format("fix gravity all gravity {} vec
 
 class RollingSphere : public testing::TestWithParam<std::tuple<Wall, double, double>> {};
 
-/* Rolling without slip: m dv = f, I dw = -f R - M with v = w R, so dv/dt = -M R/(I + m R^2) = -(5/7) mu_r g L/R, and w = v/R.
-   Tolerance: once the start's oscillations are damped out every force is constant and the leapfrog exact; 1e-6 relative is left to
-   them. */
+/* Rolling without slip: m dv/dt = f and I dw/dt = -f R - M with v = w R, so
+
+     dv/dt = -M R/(I + m R^2) = -(5/7) mu_r g L/R,   w = v/R
+
+   Tolerance: once the start's oscillations are damped out every force is constant and the leapfrog exact; 1e-6 relative
+   is left to them. */
 TEST_P(RollingSphere, SlowsDownAtTheCappedRollingMoment) {
   const auto [wall, factor, muR] = GetParam();
   Material m;
@@ -45,8 +50,9 @@ TEST_P(RollingSphere, SlowsDownAtTheCappedRollingMoment) {
   const std::string settings = fmt::format("wallRadiusFactor {}", factor);
   const double a = 5.0 / 7 * muR * g * rolling_length(factor) / R;
   const long half = std::lround(0.4 * v0 / a / dt);  // stops after v0/a
-  run.script = sphere_on_plane(run, {1, R, 1375, {-0.1, 0.01, 0}, {v0, 0, 0}, {0, v0 / R, 0}}, m, settings, wall, factor) +
-               level_gravity() + dump_grains("states", half) + fmt::format("run {}\n", 2 * half);
+  run.script =
+      sphere_on_plane(run, {1, R, 1375, {-0.1, 0.01, 0}, {v0, 0, 0}, {0, v0 / R, 0}}, m, settings, wall, factor) +
+      level_gravity() + dump_grains("states", half) + fmt::format("run {}\n", 2 * half);
   run.must();
   const std::vector<Table> frames = run.dump("states");
   ASSERT_EQ(frames.size(), 3u);
@@ -60,7 +66,8 @@ INSTANTIATE_TEST_SUITE_P(Walls, RollingSphere,
                          testing::Combine(testing::Values(Wall::primitive, Wall::mesh), testing::Values(1.0, 2.0, 5.0),
                                           testing::Values(0.1, 0.3)));
 
-/* Spinning about the normal: I dw/dt = -mu_tw tan(phi') m g L, so dw/dt = -(5/2) mu_tw tan(phi') g L/R^2; the sphere stays where it is. */
+/* Spinning about the normal: I dw/dt = -mu_tw tan(phi') m g L, so dw/dt = -(5/2) mu_tw tan(phi') g L/R^2; the sphere
+   stays where it is. */
 TEST(SpinningSphere, SlowsDownAtTheCappedTwistingMoment) {
   for (const Wall wall : {Wall::primitive, Wall::mesh})
     for (const double factor : {2.0, 5.0}) {
@@ -79,8 +86,9 @@ TEST(SpinningSphere, SlowsDownAtTheCappedTwistingMoment) {
     }
 }
 
-/* Thrown without spin: friction acts at the lever R, so m v R + I w is kept and the sphere ends in rolling at 5/7 v_0, with or without
-   a tangential dashpot; without rolling resistance it keeps that speed. While it slides without dashpot v = v_0 - tan(phi') g t. */
+/* Thrown without spin: friction acts at the lever R, so m v R + I w is kept and the sphere ends in rolling at 5/7 v_0,
+   with or without a tangential dashpot; without rolling resistance it keeps that speed. While it slides without dashpot
+   v = v_0 - tan(phi') g t. */
 TEST(SlidingSphere, EndsRollingAtFiveSevenths) {
   for (const bool dashpot : {true, false}) {
     Material m;
@@ -119,8 +127,8 @@ struct Slope {
 
 std::string slope_name(const testing::TestParamInfo<Slope>& tested) { return tested.param.name; }
 
-/* Gravity is tilted slowly to a slope with tan = `share` of the smaller limit, then kept there. 0.1 s are 57 periods of the rolling
-   spring (omega^2 = k_r/(7/5 m R^2)), so the undamped spring overshoots by 1/(2 pi 57) = 0.3 % only. */
+/* Gravity is tilted slowly to a slope with tan = `share` of the smaller limit, then kept there. 0.1 s are 57 periods of
+   the rolling spring (omega^2 = k_r/(7/5 m R^2)), so the undamped spring overshoots by 1/(2 pi 57) = 0.3 % only. */
 struct Released {
   double tangent, displacement, speed, rolling;  // x and v_x at the end, w_y R
 };
@@ -136,8 +144,8 @@ Released tilt(const Slope& s, double share, const std::string& settings) {
   Liggghts run;
   run.script = sphere_on_plane(run, {1, R, 1375, {0.001, 0.01, 0}, Vec::Zero(), Vec::Zero()}, m,
                                fmt::format("wallRadiusFactor {} {}", s.factor, settings), s.wall, s.factor) +
-               fmt::format("variable angle equal ramp(0,{:.17g})\nfix gravity all gravity {} chute v_angle\nrun {}\n", angle, g,
-                           std::lround(tilt_time / dt)) +
+               fmt::format("variable angle equal ramp(0,{:.17g})\nfix gravity all gravity {} chute v_angle\nrun {}\n",
+                           angle, g, std::lround(tilt_time / dt)) +
                fmt::format("variable angle equal {:.17g}\n{}run {}\n", angle,
                            dump_grains("states", std::lround(hold_time / dt)), std::lround(hold_time / dt));
   run.must();
@@ -157,10 +165,11 @@ TEST_P(SphereOnSlope, StaysBelowTheSmallerLimit) {
   EXPECT_NEAR(r.displacement / elastic, 1, 0.003);
 }
 
-/* Above: it leaves. Where rolling gives way first, dv/dt = 5/7 g (sin - mu_r L/R cos), rolling without slip. Where friction does, the
-   dashpot of the default setting brakes it to m g (sin - tan(phi') cos)/gamma_s; without (slidingDashpot off) it is
-   dv/dt = g (sin - tan(phi') cos), and nothing rolls. The last 0.02/1.02 of the tilt is under growing surplus: half of that time is
-   added, which leaves the curvature of sin and cos over 2 % of a slope of 0.2, and the ringing: 0.5 %. */
+/* Above: it leaves. Where rolling gives way first, dv/dt = 5/7 g (sin - mu_r L/R cos), rolling without slip. Where
+   friction does, the dashpot of the default setting brakes it to m g (sin - tan(phi') cos)/gamma_s; without
+   (slidingDashpot off) it is dv/dt = g (sin - tan(phi') cos), and nothing rolls. The last 0.02/1.02 of the tilt is
+   under growing surplus: half of that time is added, which leaves the curvature of sin and cos over 2 % of a slope of
+   0.2, and the ringing: 0.5 %. */
 TEST_P(SphereOnSlope, LeavesAboveTheSmallerLimit) {
   const Slope s = GetParam();
   const double sliding = std::tan(s.frictionAngle * pi / 180), rolling = s.muR * rolling_length(s.factor) / R;
