@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // liggghts for the benchmark: ViElTo and the stock law with the same ingredients, instantiated in one program with the
-// same flags, each with clocks around its pair loop and its wall contacts. Prints one line `TIMED {...}` at the end.
+// same flags, each with clocks around its pair loop and its wall contacts. After its script it obeys the lines on its
+// standard input, `run N` (answers with one line `TIMED {...}`) and `quit`, so that two of them can take turns.
 // clang-format off
 #include <mpi.h>
 #include <x86intrin.h>
@@ -34,11 +35,11 @@ namespace {
 
 struct Clocks {
   unsigned long long pairTicks, wallTicks;
-  double pairContacts, wallContacts;
-  long steps;
+  double pairContacts, wallContacts;  // sums over samples and over steps
+  long steps, pairSamples;
 };
 Clocks clocks = {};
-bool counting = false;  // from the command `bench_start` on
+bool counting = false;  // from the first `run N` on
 
 // Both laws pay the same for the clocks; the contacts are counted outside them.
 template <class Style>
@@ -53,7 +54,7 @@ class TimedPair : public PairStyles::Granular<ContactModel<Style>> {
     if (!counting) return;
     clocks.pairTicks += __rdtsc() - start;
     clocks.steps++;
-    if (clocks.steps % 50 == 0) clocks.pairContacts += 50.0 * contacts(pg);
+    if (clocks.steps % 50 == 1) clocks.pairSamples++, clocks.pairContacts += contacts(pg);
   }
 
  private:
@@ -107,30 +108,50 @@ void replace() {
   Walls::Factory::instance().addStyle("gran", static_cast<int>(Style::HASHCODE), &make_wall<Style>);
 }
 
+// Steps, and tells the time they took and the part of it that the law took.
+void timed_run(LAMMPS& lammps, const char* steps) {
+  clocks = Clocks();
+  counting = true;
+  char command[100];
+  snprintf(command, sizeof command, "run %s pre no post no", steps);
+  const unsigned long long ticks = __rdtsc();
+  const double begin = MPI_Wtime();
+  lammps.input->one(command);
+  const double seconds = MPI_Wtime() - begin;
+  const double tick = seconds / static_cast<double>(__rdtsc() - ticks);
+  counting = false;
+  if (lammps.comm->me != 0) return;
+  printf("TIMED {\"steps\": %ld, \"grains\": %.0f, \"run_s\": %.6g, \"pair_s\": %.6g, \"wall_s\": %.6g, "
+         "\"pair_contacts\": %.6g, \"wall_contacts\": %.6g}\n",
+         clocks.steps, static_cast<double>(lammps.atom->natoms), seconds, tick * static_cast<double>(clocks.pairTicks),
+         tick * static_cast<double>(clocks.wallTicks), clocks.pairContacts / static_cast<double>(clocks.pairSamples),
+         clocks.wallContacts / static_cast<double>(clocks.steps));
+  fflush(stdout);
+}
+
+// The next line of standard input on every rank; false at `quit` or at the end.
+bool next_steps(const LAMMPS& lammps, char (&steps)[50]) {
+  int have = 0;
+  if (lammps.comm->me == 0) have = scanf(" run %49s", steps) == 1;
+  MPI_Bcast(&have, 1, MPI_INT, 0, lammps.world);
+  MPI_Bcast(steps, sizeof steps, MPI_CHAR, 0, lammps.world);
+  return have != 0;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   MPI_Init(&argc, &argv);
-  double seconds = 0;
   {
     LAMMPS lammps(argc, argv, MPI_COMM_WORLD);
     vielto::install(&lammps);
     // after LIGGGHTS has registered its own, which would replace ours
     replace<GranStyle<VIELTO, TANGENTIAL_VIELTO, COHESION_OFF, ROLLING_VIELTO, SURFACE_DEFAULT>>();
     replace<GranStyle<HOOKE_STIFFNESS, TANGENTIAL_HISTORY, COHESION_OFF, ROLLING_EPSD2, SURFACE_DEFAULT>>();
-    lammps.input->file();  // fills the drum and lets the bed get going
-    counting = true;
-    const unsigned long long ticks = __rdtsc();
-    const double begin = MPI_Wtime();
-    lammps.input->one("run ${timedSteps}");
-    seconds = MPI_Wtime() - begin;
-    const double tick = seconds / static_cast<double>(__rdtsc() - ticks);
-    if (lammps.comm->me == 0)
-      printf("TIMED {\"steps\": %ld, \"grains\": %.0f, \"run_s\": %.6g, \"pair_s\": %.6g, \"wall_s\": %.6g, "
-             "\"pair_contacts\": %.6g, \"wall_contacts\": %.6g}\n",
-             clocks.steps, static_cast<double>(lammps.atom->natoms), seconds, tick * static_cast<double>(clocks.pairTicks),
-             tick * static_cast<double>(clocks.wallTicks), clocks.pairContacts / static_cast<double>(clocks.steps),
-             clocks.wallContacts / static_cast<double>(clocks.steps));
+    lammps.input->file();
+    if (lammps.comm->me == 0) printf("READY\n"), fflush(stdout);
+    char steps[50] = "";
+    while (next_steps(lammps, steps)) timed_run(lammps, steps);
   }
   MPI_Finalize();
   return 0;
