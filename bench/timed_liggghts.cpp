@@ -24,6 +24,7 @@
 #include "contact_models.h"
 #include "pair_gran_base.h"
 #include "fix_wall_gran_base.h"
+#include "vielto_pair.h"
 #include "vielto_register.h"
 // clang-format on
 
@@ -42,15 +43,14 @@ Clocks clocks = {};
 bool counting = false;  // from the first `run N` on
 
 // Both laws pay the same for the clocks; the contacts are counted outside them.
-template <class Style>
-class TimedPair : public PairStyles::Granular<ContactModel<Style>> {
+template <class PairStyle>
+class TimedPair : public PairStyle {
  public:
-  TimedPair(LAMMPS* lmp, PairGran* parent, int64_t hash)
-      : PairStyles::Granular<ContactModel<Style>>(lmp, parent, hash), atom_(lmp->atom) {}
+  TimedPair(LAMMPS* lmp, PairGran* parent, int64_t hash) : PairStyle(lmp, parent, hash), atom_(lmp->atom) {}
 
   void compute_force(PairGran* pg, int eflag, int vflag, int addflag) override {
     const unsigned long long start = __rdtsc();
-    PairStyles::Granular<ContactModel<Style>>::compute_force(pg, eflag, vflag, addflag);
+    PairStyle::compute_force(pg, eflag, vflag, addflag);
     if (!counting) return;
     clocks.pairTicks += __rdtsc() - start;
     clocks.steps++;
@@ -91,9 +91,9 @@ class TimedWall : public Walls::Granular<ContactModel<Style>> {
   }
 };
 
-template <class Style>
+template <class PairStyle>
 PairStyles::IGranularPairStyle* make_pair(LAMMPS* lmp, PairGran* parent, int64_t hash) {
-  return new TimedPair<Style>(lmp, parent, hash);
+  return new TimedPair<PairStyle>(lmp, parent, hash);
 }
 
 template <class Style>
@@ -102,9 +102,9 @@ Walls::IGranularWall* make_wall(LAMMPS* lmp, FixWallGran* parent, int64_t hash) 
 }
 
 // The registries warn about each replacement on standard error; here it is wanted.
-template <class Style>
+template <class Style, class PairStyle>
 void replace() {
-  PairStyles::Factory::instance().addStyle("gran", static_cast<int>(Style::HASHCODE), &make_pair<Style>);
+  PairStyles::Factory::instance().addStyle("gran", static_cast<int>(Style::HASHCODE), &make_pair<PairStyle>);
   Walls::Factory::instance().addStyle("gran", static_cast<int>(Style::HASHCODE), &make_wall<Style>);
 }
 
@@ -146,8 +146,10 @@ int main(int argc, char** argv) {
     LAMMPS lammps(argc, argv, MPI_COMM_WORLD);
     vielto::install(&lammps);
     // after LIGGGHTS has registered its own, which would replace ours
-    replace<GranStyle<VIELTO, TANGENTIAL_VIELTO, COHESION_OFF, ROLLING_VIELTO, SURFACE_DEFAULT>>();
-    replace<GranStyle<HOOKE_STIFFNESS, TANGENTIAL_HISTORY, COHESION_OFF, ROLLING_EPSD2, SURFACE_DEFAULT>>();
+    using Ours = GranStyle<VIELTO, TANGENTIAL_VIELTO, COHESION_OFF, ROLLING_VIELTO, SURFACE_DEFAULT>;
+    using Stock = GranStyle<HOOKE_STIFFNESS, TANGENTIAL_HISTORY, COHESION_OFF, ROLLING_EPSD2, SURFACE_DEFAULT>;
+    replace<Ours, vielto::FastPair<Ours>>();
+    replace<Stock, PairStyles::Granular<ContactModel<Stock>>>();
     lammps.input->file();
     if (lammps.comm->me == 0) printf("READY\n"), fflush(stdout);
     char steps[50] = "";

@@ -56,7 +56,7 @@ std::string format(const char* pattern, double value) {
 
 }  // namespace
 
-FixViEltoRecord::FixViEltoRecord(LAMMPS* lammps, int narg, char** arg) : Fix(lammps, narg, arg), tally_(vielto::tally()) {
+FixViEltoRecord::FixViEltoRecord(LAMMPS* lammps, int narg, char** arg) : Fix(lammps, narg, arg), watch_(lammps), tally_(vielto::tally()) {
   nevery = 1;
   vector_flag = 1;
   size_vector = 5;
@@ -169,7 +169,8 @@ void FixViEltoRecord::init() {
 
 void FixViEltoRecord::setup(int) {
   if (!file_) open_file();
-  if (grains_ < 0) check_grains();
+  // every grain must be there at every row: a lost one makes the means false
+  if (watch_.grains() < 0) watch_.look(format("turn %.3f", turn()));
   if (forcesRead_) take_up_forces();
   progressStart_ = progressLast_ = MPI_Wtime();
   progressStep_ = update->ntimestep;
@@ -244,7 +245,7 @@ void FixViEltoRecord::end_of_step() {
     gravitySamples_++;
   }
   if ((update->ntimestep - start_) % every_ == 0) {
-    check_grains();
+    watch_.look(format("turn %.3f", turn()));
     write_row();
     clear_interval();
   }
@@ -264,44 +265,6 @@ void FixViEltoRecord::check_torque(const Part& part, double torque) const {
            "greatest wall force, %.4g N, acts on grain %d",
            update->ntimestep, turn(), part.name.c_str(), torque, maxTorque_, most.force, most.grain);
   vielto::stop_all(lmp, line);
-}
-
-// Every grain must be there at every row: a lost one makes the means false.
-void FixViEltoRecord::check_grains() {
-  const bigint mine = atom->nlocal;
-  bigint now = 0;
-  MPI_Allreduce(&mine, &now, 1, MPI_LMP_BIGINT, MPI_SUM, world);
-  if (grains_ >= 0 && now != grains_) {
-    // a tag that was here at the last row and is nowhere now
-    std::vector<int> tags(atom->tag, atom->tag + atom->nlocal);
-    std::vector<int> counts(comm->nprocs), offsets(comm->nprocs);
-    int n = static_cast<int>(tags.size());
-    MPI_Allgather(&n, 1, MPI_INT, counts.data(), 1, MPI_INT, world);
-    int sum = 0;
-    for (int p = 0; p < comm->nprocs; p++) offsets[p] = sum, sum += counts[p];
-    std::vector<int> all(sum);
-    MPI_Allgatherv(tags.data(), n, MPI_INT, all.data(), counts.data(), offsets.data(), MPI_INT, world);
-    for (int tag : all) places_.erase(tag);
-    int lostTag = places_.empty() ? 0 : places_.begin()->first, anyTag = 0;
-    MPI_Allreduce(&lostTag, &anyTag, 1, MPI_INT, MPI_MAX, world);
-    Place place = {};
-    if (places_.count(anyTag)) place = places_[anyTag];
-    double packed[6] = {place.x[0], place.x[1], place.x[2], place.v[0], place.v[1], place.v[2]}, sent[6];
-    MPI_Allreduce(packed, sent, 6, MPI_DOUBLE, MPI_SUM, world);
-    char line[400];
-    snprintf(line, sizeof line,
-             "vielto: step " BIGINT_FORMAT " (turn %.3f): " BIGINT_FORMAT " of " BIGINT_FORMAT
-             " grains are there; grain %d was lost since the last row, where it was at (%.4g %.4g %.4g) m with "
-             "velocity (%.4g %.4g %.4g) m/s",
-             update->ntimestep, turn(), now, grains_, anyTag, sent[0], sent[1], sent[2], sent[3], sent[4], sent[5]);
-    vielto::stop_all(lmp, line);
-  }
-  grains_ = now;
-  places_.clear();
-  for (int i = 0; i < atom->nlocal; i++) {
-    Place& place = places_[atom->tag[i]];
-    for (int d = 0; d < 3; d++) place.x[d] = atom->x[i][d], place.v[d] = atom->v[i][d];
-  }
 }
 
 double FixViEltoRecord::gravity_moment() const {
@@ -407,7 +370,7 @@ void FixViEltoRecord::write_row() {
   add(contacts > 0 ? overlapSum / contacts : 0);
   add(overlapMax);
   add(gravitySamples_ ? contacts / gravitySamples_ : 0);
-  add(static_cast<double>(grains_));
+  add(static_cast<double>(watch_.grains()));
   add(kinetic);
   if (energy_) {
     add(work_);

@@ -28,12 +28,12 @@ FixStyle(vielto/record, FixViEltoRecord)
 #ifndef LMP_FIX_VIELTO_RECORD_H
 #define LMP_FIX_VIELTO_RECORD_H
 
-#include <map>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "fix.h"
+#include "fix_vielto_watch.h"
 #include "vielto_state.h"
 
 namespace LAMMPS_NS {
@@ -71,9 +71,6 @@ class FixViEltoRecord : public Fix {
     double torque = 0;
     double force[3] = {0, 0, 0};
   };
-  struct Place {
-    double x[3], v[3];
-  };
 
   void parse(int narg, char** arg);
   void open_file();
@@ -87,7 +84,6 @@ class FixViEltoRecord : public Fix {
   void take_up_forces();
   void check_time_step();
   void check_torque(const Part&, double torque) const;
-  void check_grains();
   void show_progress();
   double elapsed() const;  // since the rotation began, s
   double turn() const;
@@ -121,8 +117,7 @@ class FixViEltoRecord : public Fix {
   double lastRotor_ = 0, lastDrum_ = 0;
   double progressStart_ = 0, progressLast_ = 0;
   bigint progressStep_ = 0;
-  std::map<int, Place> places_;  // this processor's grains at the last row
-  bigint grains_ = -1;
+  vielto::GrainWatch watch_;
   vielto::Tally& tally_;
 };
 

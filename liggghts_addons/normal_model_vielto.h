@@ -82,8 +82,12 @@ class NormalModel<VIELTO> : public NormalModelBase {
     sidata.gamman = s.gammaN;
     sidata.gammat = s.gammaS;
 
-    const double diameter = 2 * (sidata.is_wall || sidata.radi < sidata.radj ? sidata.radi : sidata.radj);
-    if (sidata.computeflag && sidata.shearupdate) watch(sidata, diameter, Fn);
+    if (sidata.computeflag && sidata.shearupdate) {
+      const double diameter = 2 * (sidata.is_wall || sidata.radi < sidata.radj ? sidata.radi : sidata.radj);
+      const bool record = sidata.deltan > tally_.overlapMax * diameter || (sidata.is_wall && Fn > tally_.wallForce);
+      // a copy, so that the pair loop can keep a contact's data in registers
+      if (record || tally_.overlaps || tally_.energy) watch(SurfacesIntersectData(sidata), diameter);
+    }
 
     const double F = sidata.is_wall ? Fn * sidata.area_ratio : Fn;
     const double fx = F * sidata.en[0], fy = F * sidata.en[1], fz = F * sidata.en[2];
@@ -106,7 +110,8 @@ class NormalModel<VIELTO> : public NormalModelBase {
 
  private:
   // Overlap limit, overlap statistics and the normal part of the energy accounts.
-  void watch(const SurfacesIntersectData& sidata, double diameter, double Fn) {
+  VIELTO_NOINLINE void watch(const SurfacesIntersectData& sidata, double diameter) {
+    const double Fn = sidata.Fn;
     if (sidata.deltan > tally_.overlapMax * diameter) {
       tally_.overlapMax = sidata.deltan / diameter;
       if (maxOverlap_ > 0 && tally_.overlapMax > maxOverlap_) stop(sidata);

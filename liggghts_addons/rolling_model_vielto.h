@@ -86,20 +86,14 @@ class RollingModel<ROLLING_VIELTO> : public RollingModelBase {
       history[1] = Mr.y;
       history[2] = Mr.z;
       history[3] = Mtw;
-      if (tally_.energy) {
-        const double share = vielto::share(sidata, atom->nlocal, force->newton_pair);
-        tally_.rolling += share * vielto::capped_spring_loss(old, Mr, wr, dt, kr);
-        tally_.twisting += share * vielto::capped_spring_loss(oldTw, Mtw, wtw, dt, ktw);
-        if (kr > 0) tally_.elastic += share * 0.5 * dot(Mr, Mr) / kr;
-        if (ktw > 0) tally_.elastic += share * 0.5 * Mtw * Mtw / ktw;
-      }
+      if (tally_.energy) account(SurfacesIntersectData(sidata), old, Mr, wr, kr, oldTw, Mtw, wtw, ktw);
     } else {
       rolling = vielto::cap(Mr, limitR);
       if (std::fabs(Mtw) > limitTw) Mtw = std::copysign(limitTw, Mtw);
     }
 
     Vec M = Mr + Mtw * n;
-    if (rollingDashpot_) M = M + dashpot(sidata, pair, R1, R2, kr, ktw, rolling ? Vec{0, 0, 0} : wr, twisting ? 0.0 : wtw, n);
+    if (rollingDashpot_) M = M + dashpot(SurfacesIntersectData(sidata), pair, R1, R2, kr, ktw, rolling ? Vec{0, 0, 0} : wr, twisting ? 0.0 : wtw, n);
 
     const double area = sidata.is_wall ? sidata.area_ratio : 1.0;
     i_forces.delta_torque[0] += area * M.x;
@@ -125,8 +119,17 @@ class RollingModel<ROLLING_VIELTO> : public RollingModelBase {
   void endPass(SurfacesIntersectData&, ForceData&, ForceData&) {}
 
  private:
+  VIELTO_NOINLINE void account(const SurfacesIntersectData& sidata, const vielto::Vec& old, const vielto::Vec& Mr,
+                               const vielto::Vec& wr, double kr, double oldTw, double Mtw, double wtw, double ktw) {
+    const double share = vielto::share(sidata, atom->nlocal, force->newton_pair), dt = update->dt;
+    tally_.rolling += share * vielto::capped_spring_loss(old, Mr, wr, dt, kr);
+    tally_.twisting += share * vielto::capped_spring_loss(oldTw, Mtw, wtw, dt, ktw);
+    if (kr > 0) tally_.elastic += share * 0.5 * dot(Mr, Mr) / kr;
+    if (ktw > 0) tally_.elastic += share * 0.5 * Mtw * Mtw / ktw;
+  }
+
   // Viscous moments; the loss is booked with rolling and twisting.
-  vielto::Vec dashpot(const SurfacesIntersectData& sidata, const vielto::Pair& pair, double R1, double R2, double kr,
+  VIELTO_NOINLINE vielto::Vec dashpot(const SurfacesIntersectData& sidata, const vielto::Pair& pair, double R1, double R2, double kr,
                       double ktw, const vielto::Vec& wr, double wtw, const vielto::Vec& n) {
     const double I1 = 0.4 * sidata.mi * R1 * R1;
     const double I2 = 0.4 * sidata.mj * R2 * R2;

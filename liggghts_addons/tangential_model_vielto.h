@@ -77,7 +77,7 @@ class TangentialModel<TANGENTIAL_VIELTO> : public TangentialModelBase {
       history[0] = spring.x;
       history[1] = spring.y;
       history[2] = spring.z;
-      if (tally_.energy) account(sidata, old, spring, vs, sliding, dt);
+      if (tally_.energy) account(SurfacesIntersectData(sidata), old, spring, vs, sliding, dt);
     } else {
       spring = old;
       sliding = vielto::cap(spring, limit);
@@ -114,7 +114,7 @@ class TangentialModel<TANGENTIAL_VIELTO> : public TangentialModelBase {
   void endPass(SurfacesIntersectData&, ForceData&, ForceData&) {}
 
  private:
-  void account(const SurfacesIntersectData& sidata, const vielto::Vec& old, const vielto::Vec& spring,
+  VIELTO_NOINLINE void account(const SurfacesIntersectData& sidata, const vielto::Vec& old, const vielto::Vec& spring,
                const vielto::Vec& vs, bool sliding, double dt) {
     const double share = vielto::share(sidata, atom->nlocal, force->newton_pair);
     tally_.elastic += share * 0.5 * dot(spring, spring) / sidata.kt;

@@ -37,11 +37,14 @@
 #include <algorithm>
 #include <cmath>
 
-// These small functions stand in the innermost loop: a call costs more than the work of most of them.
+// These small functions stand in the innermost loop: a call costs more than the work of most of them. What runs
+// seldom stays out of that loop.
 #if defined(__GNUC__)
 #define VIELTO_INLINE inline __attribute__((always_inline))
+#define VIELTO_NOINLINE __attribute__((noinline))
 #else
 #define VIELTO_INLINE inline
+#define VIELTO_NOINLINE
 #endif
 
 namespace vielto {

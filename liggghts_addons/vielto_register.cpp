@@ -25,6 +25,7 @@
 #include "fix_wall_gran_base.h"
 #include "fix_vielto_record.h"
 #include "vielto_command.h"
+#include "vielto_pair.h"
 // clang-format on
 
 using namespace LAMMPS_NS;
@@ -34,27 +35,24 @@ using namespace LIGGGHTS::ContactModels;
 namespace vielto {
 
 namespace {
-
-/* LIGGGHTS keeps the tables of its fix and command styles private and offers no function to add to them. An explicit
-   instantiation may name a private member; this hands out pointers to the two tables. */
-template <class Table, typename Table::type Member>
-struct Opened {
-  friend typename Table::type member(Table) { return Member; }
-};
-
 struct FixTable {
   typedef std::map<std::string, Fix* (*)(LAMMPS*, int, char**)>* Modify::*type;
-  friend type member(FixTable);
 };
-template struct Opened<FixTable, &Modify::fix_map>;
-
 struct CommandTable {
   typedef std::map<std::string, void (*)(LAMMPS*, int, char**)>* Input::*type;
-  friend type member(CommandTable);
 };
+}  // namespace
+
+// see Opened in vielto_pair.h
+template struct Opened<FixTable, &Modify::fix_map>;
 template struct Opened<CommandTable, &Input::command_map>;
 
-Fix* make_record(LAMMPS* lmp, int narg, char** arg) { return new FixViEltoRecord(lmp, narg, arg); }
+namespace {
+
+template <class Style>
+Fix* make_fix(LAMMPS* lmp, int narg, char** arg) {
+  return new Style(lmp, narg, arg);
+}
 
 void run_command(LAMMPS* lmp, int narg, char** arg) {
   ViEltoCommand command(lmp);
@@ -64,16 +62,33 @@ void run_command(LAMMPS* lmp, int narg, char** arg) {
 }  // namespace
 
 void install(LAMMPS* lmp) {
-  (*(lmp->modify->*member(FixTable())))["vielto/record"] = &make_record;
-  (*(lmp->input->*member(CommandTable())))["vielto"] = &run_command;
+  auto& fixes = *(lmp->modify->*Handed<FixTable>::pointer);
+  fixes["vielto/record"] = &make_fix<FixViEltoRecord>;
+  fixes["vielto/watch"] = &make_fix<FixViEltoWatch>;
+  (*(lmp->input->*Handed<CommandTable>::pointer))["vielto"] = &run_command;
 }
+
+template <int Cohesion, int Rolling>
+using ViElToStyle = GranStyle<VIELTO, TANGENTIAL_VIELTO, Cohesion, Rolling, SURFACE_DEFAULT>;
+
+// Styles with cohesion in contact only take our pair loop, which needs the model of LIGGGHTS' own.
+#define VIELTO_TOUCHING(NAME, COHESION, ROLLING)       \
+  using NAME = ViElToStyle<COHESION, ROLLING>;         \
+  template struct Opened<ModelOfPair<NAME>, &PairStyles::Granular<ContactModel<NAME>>::cmodel>;
+VIELTO_TOUCHING(Plain, COHESION_OFF, ROLLING_OFF)
+VIELTO_TOUCHING(PlainRolling, COHESION_OFF, ROLLING_VIELTO)
+VIELTO_TOUCHING(Sjkr, COHESION_SJKR, ROLLING_OFF)
+VIELTO_TOUCHING(SjkrRolling, COHESION_SJKR, ROLLING_VIELTO)
+VIELTO_TOUCHING(Sjkr2, COHESION_SJKR2, ROLLING_OFF)
+VIELTO_TOUCHING(Sjkr2Rolling, COHESION_SJKR2, ROLLING_VIELTO)
+#undef VIELTO_TOUCHING
 
 namespace {
 
-template <class Style>
+template <class PairStyle>
 PairStyles::IGranularPairStyle* make_pair(LAMMPS* lmp, PairGran* parent, int64_t hash) {
   install(lmp);
-  return new PairStyles::Granular<ContactModel<Style>>(lmp, parent, hash);
+  return new PairStyle(lmp, parent, hash);
 }
 
 template <class Style>
@@ -82,17 +97,20 @@ Walls::IGranularWall* make_wall(LAMMPS* lmp, FixWallGran* parent, int64_t hash) 
   return new Walls::Granular<ContactModel<Style>>(lmp, parent, hash);
 }
 
-template <int Cohesion, int Rolling>
+template <class Style, class PairStyle>
 void add_combination() {
-  typedef GranStyle<VIELTO, TANGENTIAL_VIELTO, Cohesion, Rolling, SURFACE_DEFAULT> Style;
-  PairStyles::Factory::instance().addStyle("gran", static_cast<int>(Style::HASHCODE), &make_pair<Style>);
+  PairStyles::Factory::instance().addStyle("gran", static_cast<int>(Style::HASHCODE), &make_pair<PairStyle>);
   Walls::Factory::instance().addStyle("gran", static_cast<int>(Style::HASHCODE), &make_wall<Style>);
 }
 
-template <int Cohesion>
-void add_rolling_combinations() {
-  add_combination<Cohesion, ROLLING_OFF>();
-  add_combination<Cohesion, ROLLING_VIELTO>();
+template <class Style>
+void add_touching() {
+  add_combination<Style, FastPair<Style>>();
+}
+
+template <class Style>
+void add_bridging() {
+  add_combination<Style, PairStyles::Granular<ContactModel<Style>>>();
 }
 
 struct Registration {
@@ -103,11 +121,17 @@ struct Registration {
     models.addNormalModel("vielto", VIELTO);
     models.addTangentialModel("vielto", TANGENTIAL_VIELTO);
     models.addRollingModel("vielto", ROLLING_VIELTO);
-    add_rolling_combinations<COHESION_OFF>();
-    add_rolling_combinations<COHESION_SJKR>();
-    add_rolling_combinations<COHESION_SJKR2>();
-    add_rolling_combinations<COHESION_EASO_CAPILLARY_VISCOUS>();
-    add_rolling_combinations<COHESION_WASHINO_CAPILLARY_VISCOUS>();
+    add_touching<Plain>();
+    add_touching<PlainRolling>();
+    add_touching<Sjkr>();
+    add_touching<SjkrRolling>();
+    add_touching<Sjkr2>();
+    add_touching<Sjkr2Rolling>();
+    // a capillary bridge pulls beyond contact and needs LIGGGHTS' own loop
+    add_bridging<ViElToStyle<COHESION_EASO_CAPILLARY_VISCOUS, ROLLING_OFF>>();
+    add_bridging<ViElToStyle<COHESION_EASO_CAPILLARY_VISCOUS, ROLLING_VIELTO>>();
+    add_bridging<ViElToStyle<COHESION_WASHINO_CAPILLARY_VISCOUS, ROLLING_OFF>>();
+    add_bridging<ViElToStyle<COHESION_WASHINO_CAPILLARY_VISCOUS, ROLLING_VIELTO>>();
   }
 };
 
