@@ -21,13 +21,13 @@ namespace vielto {
 // The grains of one look, to be compared with those of the next. Collective over all ranks.
 class GrainWatch : protected LAMMPS_NS::Pointers {
  public:
-  explicit GrainWatch(LAMMPS_NS::LAMMPS* lmp) : Pointers(lmp) {}
+  explicit GrainWatch(LAMMPS_NS::LAMMPS* program) : Pointers(program) {}
   // Stops the run if a grain of the last look is gone; `when` stands in brackets behind the step.
   void look(const std::string& when);
   LAMMPS_NS::bigint grains() const { return grains_; }  // of the last look; -1 before the first
 
  private:
-  [[noreturn]] void stop(LAMMPS_NS::bigint now, const std::string& when);
+  void stop(LAMMPS_NS::bigint now, const std::string& when);
   struct Place {
     double x[3], v[3];
   };

@@ -122,3 +122,11 @@ TEST(MixerRefusesLoss, OfAGrain) {
       "run", two, "-var speed 20 -var turns 2 -var maxOverlap 0 -var youngsModulus 2e4 -var wall_youngsModulus 2e4");
   expect_refusal(mixer, "run", outcome, {"step", "178 of 179 grains are there; grain ", "was lost", "velocity"});
 }
+
+// Softer still: they fall through the drum before the rotor turns.
+TEST(MixerRefusesLoss, OfAGrainWhileFilling) {
+  Mixer mixer;
+  const Outcome outcome =
+      mixer.mixer("run", two, "-var maxOverlap 0 -var youngsModulus 100 -var wall_youngsModulus 100");
+  expect_refusal(mixer, "run", outcome, {"step", "every 1000 steps", "of 179 grains are there; grain ", "was lost", "velocity"});
+}
