@@ -82,17 +82,17 @@ Walls::IGranularWall* make_wall(LAMMPS* lmp, FixWallGran* parent, int64_t hash) 
   return new Walls::Granular<ContactModel<Style>>(lmp, parent, hash);
 }
 
-template <int Cohesion, int Rolling>
+template <int Normal, int Tangential, int Cohesion, int Rolling>
 void add_combination() {
-  typedef GranStyle<VIELTO, TANGENTIAL_VIELTO, Cohesion, Rolling, SURFACE_DEFAULT> Style;
+  typedef GranStyle<Normal, Tangential, Cohesion, Rolling, SURFACE_DEFAULT> Style;
   PairStyles::Factory::instance().addStyle("gran", static_cast<int>(Style::HASHCODE), &make_pair<Style>);
   Walls::Factory::instance().addStyle("gran", static_cast<int>(Style::HASHCODE), &make_wall<Style>);
 }
 
 template <int Cohesion>
 void add_rolling_combinations() {
-  add_combination<Cohesion, ROLLING_OFF>();
-  add_combination<Cohesion, ROLLING_VIELTO>();
+  add_combination<VIELTO, TANGENTIAL_VIELTO, Cohesion, ROLLING_OFF>();
+  add_combination<VIELTO, TANGENTIAL_VIELTO, Cohesion, ROLLING_VIELTO>();
 }
 
 struct Registration {
@@ -103,6 +103,8 @@ struct Registration {
     models.addNormalModel("vielto", VIELTO);
     models.addTangentialModel("vielto", TANGENTIAL_VIELTO);
     models.addRollingModel("vielto", ROLLING_VIELTO);
+    models.addNormalModel("cohfrict", COHFRICT);
+    add_combination<COHFRICT, TANGENTIAL_OFF, COHESION_OFF, ROLLING_OFF>();
     add_rolling_combinations<COHESION_OFF>();
     add_rolling_combinations<COHESION_SJKR>();
     add_rolling_combinations<COHESION_SJKR2>();

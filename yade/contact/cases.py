@@ -15,6 +15,8 @@ def filled(book, raw, where):
     case = dict(book["defaults"], **raw)
     if case["law"] not in LAWS:
         raise BadInput(f"{where}: law {case['law']!r} is none of {', '.join(LAWS)}")
+    if case["model"] not in mapping.PROPERTIES:
+        raise BadInput(f"{where}: model {case['model']!r} is none of {', '.join(mapping.PROPERTIES)}")
     if case.get("wall", "box") not in mapping.WALL_RADIUS_FACTOR:
         raise BadInput(f"{where}: wall {case['wall']!r} is none of {', '.join(mapping.WALL_RADIUS_FACTOR)}")
     if len(case["spheres"]) != (1 if "wall" in case else 2):
@@ -29,7 +31,8 @@ def filled(book, raw, where):
         if name not in book["materials"]:
             raise BadInput(f"{where}: no material {name!r}; there are {', '.join(book['materials'])}")
     # what a material does not name is 0: it takes no part in its cases
-    case["materials"] = [dict(dict.fromkeys(mapping.PROPERTIES, 0), **book["materials"][m]) for m in case["materials"]]
+    unused = dict.fromkeys(mapping.PROPERTIES[case["model"]], 0)
+    case["materials"] = [dict(unused, **book["materials"][m]) for m in case["materials"]]
     return case
 
 

@@ -10,6 +10,7 @@ import numpy
 import mapping
 from errors import RunFailed
 
+MODELS = {"vielto": "model vielto tangential vielto rolling_friction vielto", "cohfrict": "model cohfrict"}
 HERE = pathlib.Path(__file__).resolve().parent
 
 
@@ -41,12 +42,13 @@ def liggghts(program, case, folder, samples, level):
     values = {"dt": repr(case["step"] / 2**level), "steps": count, "every": every, "skin": 0.5 * spheres[0]["radius"],
               "wall": int("wall" in case), "g": repr(g), "force": case.get("force", 0)}
     values.update(zip(("gx", "gy", "gz"), map(repr, gravity)))
-    for name in mapping.PROPERTIES:
-        values[name] = '"' + " ".join(repr(m[name]) for m in case["materials"]) + '"'
-    names = ["springFactor", "limitForce", "slidingDashpot", "radiusLever", "rollingDashpot"]
-    settings = [f"{name} {case[name]}" for name in names]
+    (folder / "properties").write_text("".join(
+        f"fix {name} all property/global {name} peratomtype {' '.join(repr(m[name]) for m in case['materials'])}\n"
+        for name in mapping.PROPERTIES[case["model"]]))
+    settings = [f"{name} {case[name]}" for name in mapping.SETTINGS[case["model"]]]
     if "wall" in case:
         settings.append(f"wallRadiusFactor {mapping.WALL_RADIUS_FACTOR[case['wall']]}")
+    values["models"] = f'"{MODELS[case["model"]]}"'
     values["settings"] = '"' + " ".join(settings) + '"'
     (folder / "case.par").write_text("".join(f"variable {k} index {v}\n" for k, v in values.items()))
 
@@ -67,7 +69,8 @@ def yade_run(case, folder, samples, level):
     count, every = steps(case, samples, level)
     return {"law": case["law"], "wall": case.get("wall", ""), "materials": mapping.yade_materials(case),
             "spheres": mapping.start(case), "gravity": case.get("gravity", [0, 0, 0]),
-            "avoidRatcheting": case["avoidRatcheting"], "dt": case["step"] / 2**level, "steps": count, "every": every,
+            "avoidRatcheting": case["avoidRatcheting"] == "on", "bond": case["bondNewContacts"] == "on",
+            "dt": case["step"] / 2**level, "steps": count, "every": every,
             "out": str(folder / f"{case['name']}.{level}")}
 
 

@@ -1,12 +1,20 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""ViElTo's parameters of one contact -> the two bodies' Yade materials that give the same contact.
+"""Parameters of one contact in LIGGGHTS -> the two bodies' Yade materials that give the same contact.
 
 The formulas are those of the table in yade/README.md, written from the thesis's equations and Yade's documentation.
 """
 import math
 
-PROPERTIES = ["youngsModulus", "stiffnessRatio", "frictionAngle", "normalDamping", "tangentialDamping",
-              "rollingStiffnessFactor", "twistingStiffnessFactor", "rollingResistance", "twistingResistance"]
+PROPERTIES = {
+    "vielto": ["youngsModulus", "stiffnessRatio", "frictionAngle", "normalDamping", "tangentialDamping",
+               "rollingStiffnessFactor", "twistingStiffnessFactor", "rollingResistance", "twistingResistance"],
+    "cohfrict": ["youngsModulus", "stiffnessRatio", "frictionAngle", "alphaKr", "alphaKtw", "etaRoll", "etaTwist",
+                 "normalCohesion", "shearCohesion"],
+}
+SETTINGS = {
+    "vielto": ["springFactor", "limitForce", "slidingDashpot", "radiusLever", "rollingDashpot"],
+    "cohfrict": ["bondNewContacts", "avoidRatcheting"],
+}
 WALL_RADIUS_FACTOR = {"box": 1, "facet": 2}  # what Yade takes for R_2/R_1
 
 
@@ -18,23 +26,32 @@ def sphere_mass(density, radius):
     return density * 4 / 3 * math.pi * radius**3
 
 
-class Contact:
-    """Stiffnesses, dashpots and caps of ViElTo between sphere 1 and body 2."""
+class Bodies:
+    """Radii and effective mass of sphere 1 and body 2, and the spring between them."""
 
     def __init__(self, case):
-        a, b = case["materials"]
         self.R1 = case["spheres"][0]["radius"]
-        m1 = sphere_mass(case["density"], self.R1)
+        self.mass = sphere_mass(case["density"], self.R1)
         if case.get("wall"):
-            self.R2, self.mass = WALL_RADIUS_FACTOR[case["wall"]] * self.R1, m1
+            self.R2 = WALL_RADIUS_FACTOR[case["wall"]] * self.R1
         else:
             self.R2 = case["spheres"][1]["radius"]
             m2 = sphere_mass(case["density"], self.R2)
-            self.mass = m1 * m2 / (m1 + m2)
-        k1, k2 = 2 * a["youngsModulus"] * self.R1, 2 * b["youngsModulus"] * self.R2
-        self.kn = harmonic(k1, k2)
-        self.ks = harmonic(k1 * a["stiffnessRatio"], k2 * b["stiffnessRatio"])
-        self.normalSpring = case["springFactor"] * self.kn  # what F_n rises by with the overlap
+            self.mass = self.mass * m2 / (self.mass + m2)
+        a, b = case["materials"]
+        self.k1, self.k2 = 2 * a["youngsModulus"] * self.R1, 2 * b["youngsModulus"] * self.R2
+        factor = case["springFactor"] if case["model"] == "vielto" else 0.5
+        self.normalSpring = factor * harmonic(self.k1, self.k2)  # what F_n rises by with the overlap
+
+
+class Contact(Bodies):
+    """Stiffnesses, dashpots and caps of ViElTo between sphere 1 and body 2."""
+
+    def __init__(self, case):
+        super().__init__(case)
+        a, b = case["materials"]
+        self.kn = harmonic(self.k1, self.k2)
+        self.ks = harmonic(self.k1 * a["stiffnessRatio"], self.k2 * b["stiffnessRatio"])
         self.normalDashpot = (a["normalDamping"] + b["normalDamping"]) * math.sqrt(self.kn * self.mass)
         self.tangentialDashpot = (a["tangentialDamping"] + b["tangentialDamping"]) * math.sqrt(self.ks * self.mass)
         self.frictionAngle = math.radians((a["frictionAngle"] + b["frictionAngle"]) / 2)
@@ -45,6 +62,11 @@ class Contact:
 
 def yade_materials(case):
     """Keyword arguments of Yade's material for body 1 and body 2."""
+    if case["model"] == "cohfrict":  # the same law: the same numbers, and Yade mixes them
+        same = ("alphaKr", "alphaKtw", "etaRoll", "etaTwist", "normalCohesion", "shearCohesion")
+        return [dict({name: m[name] for name in same}, density=case["density"], young=m["youngsModulus"],
+                     poisson=m["stiffnessRatio"], frictionAngle=math.radians(m["frictionAngle"]))
+                for m in case["materials"]]
     c = Contact(case)
     common = {"density": case["density"], "frictionAngle": c.frictionAngle}  # Yade takes the smaller of the two
     if case["law"] == "ViscEl":
@@ -61,7 +83,7 @@ def yade_materials(case):
 
 def start(case):
     """Spheres with place, velocity, spin, load: about to touch, or pressed to the overlap that balances the load."""
-    c = Contact(case)
+    c = Bodies(case)
     overlap = -1e-9 * c.R1  # at 0 the one engine counts the contact as begun, the other does not
     if case.get("press"):
         load = -case["gravity"][2] * c.mass if case.get("wall") else case["force"]

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Two-body cases in Yade:  yade -n -x -j1 two_body.py runs.json
 
-runs.json is a list of {law, wall, materials, spheres, gravity, avoidRatcheting, dt, steps, every, out}, written by yade/check.
+runs.json, written by yade/check, is a list of {law, wall, materials, spheres, gravity, avoidRatcheting, bond, dt,
+steps, every, out}.
 Each run writes to `out` a line every `every` steps: t, then x v w F T of each sphere; F and T are the whole force and
 torque. Yade is a leapfrog: its velocities belong to half steps; the line holds the mean of the two around t.
 """
@@ -10,10 +11,10 @@ import sys
 
 LAWS = {
     "ViscEl": (ViscElMat, {}, [Ig2_Sphere_Sphere_ScGeom, Ig2_Box_Sphere_ScGeom, Ig2_Facet_Sphere_ScGeom],
-               Ip2_ViscElMat_ViscElMat_ViscElPhys(), lambda: Law2_ScGeom_ViscElPhys_Basic()),
-    "CohFrict": (CohFrictMat, {"momentRotationLaw": True, "isCohesive": False},
+               lambda bond: Ip2_ViscElMat_ViscElMat_ViscElPhys(), lambda: Law2_ScGeom_ViscElPhys_Basic()),
+    "CohFrict": (CohFrictMat, {"momentRotationLaw": True},
                  [Ig2_Sphere_Sphere_ScGeom6D, Ig2_Box_Sphere_ScGeom6D, Ig2_Facet_Sphere_ScGeom6D],
-                 Ip2_CohFrictMat_CohFrictMat_CohFrictPhys(),
+                 lambda bond: Ip2_CohFrictMat_CohFrictMat_CohFrictPhys(setCohesionOnNewContacts=bond),
                  lambda: Law2_ScGeom6D_CohFrictPhys_CohesionMoment(always_use_moment_law=True, useIncrementalForm=True)),
 }
 
@@ -38,7 +39,7 @@ def scene(run):
         ForceResetter(),
         InsertionSortCollider([Bo1_Sphere_Aabb(), Bo1_Box_Aabb(), Bo1_Facet_Aabb()]),
         InteractionLoop([sphere_sphere(avoidGranularRatcheting=run["avoidRatcheting"]), box_sphere(), facet_sphere()],
-                        [physics], [law()]),
+                        [physics(run["bond"])], [law()]),
         NewtonIntegrator(damping=0, gravity=Vector3(run["gravity"])),
     ]
     return ids
