@@ -74,6 +74,7 @@ class YadeContact : public YadeCheck {
 TEST_F(YadeContact, AgreesInImpactsAndMoments) {
   const Outcome done = check(
       "--case normal_spheres --case oblique_wall_both --case oblique_spheres_unequal --case rolling_wall_cap_facet "
+      "--case cohfrict_bond_tumbles --case cohfrict_bond_sheared --case cohfrict_wall_torn "
       "--case rolling_spheres_unequal --case twisting_wall_cap --case all_moments_spheres");
   EXPECT_EQ(done.status, 0) << done.text;
   for (const char* name : {"contact_check.csv", "contact_check.md", "contact_check.png"})

@@ -18,10 +18,9 @@ def largest(a):
     return float(numpy.linalg.norm(a, axis=-1).max())
 
 
-def observed_order(coarse, middle, fine):
-    """p of error ~ dt^p, from the largest change between successive halvings; None where there is no change to see."""
-    a, b = largest(coarse - middle), largest(middle - fine)
-    return math.log2(a / b) if min(a, b) > 1e-12 * max(largest(fine), 1e-12) else None
+def order_of(coarse, fine, scale):
+    """p of error ~ dt^p from an error and the one at half the step; None where they are round-off of values of `scale`."""
+    return math.log2(coarse / fine) if scale and min(coarse, fine) > 1e-11 * scale else None
 
 
 def limit(middle, fine, order):
@@ -37,14 +36,16 @@ def compare(ours, theirs):
         scale = max(largest(a[-1][name]), largest(b[-1][name]))
         if scale < 1e-12:  # round-off in both engines: this quantity is zero in this case
             scale = 0.0
-        p = observed_order(*(s[name] for s in a))
+        p = order_of(*(largest(a[k][name] - a[k + 1][name]) for k in (0, 1)), scale)
         # Both schemes are of first order (a dashpot's velocity is half a step late; caps and contact ends fall on
         # steps) or, where all is smooth, of second: the nearer of the two.
         order = 2 if p is not None and p > 1.5 else 1
         end_a, end_b = (limit(s[-2][name], s[-1][name], order) for s in (a, b))
-        same, gone = largest(a[-1][name] - b[-1][name]), largest(end_a - end_b)
+        apart = [largest(s[name] - t[name]) for s, t in zip(a, b)]  # at equal steps
+        gone = largest(end_a - end_b)
         step = largest(a[-1][name] - end_a)
         ratio = (lambda d: d / scale) if scale else (lambda d: 0.0)
         rows.append({"quantity": name, "unit": unit, "largest": scale, "difference": gone, "relative": ratio(gone),
-                     "relative_same_step": ratio(same), "step_error": ratio(step), "observed_order": p, "order": order})
+                     "relative_same_step": ratio(apart[-1]), "step_error": ratio(step), "observed_order": p, "order": order,
+                     "difference_order": order_of(apart[-2], apart[-1], scale)})
     return rows
