@@ -121,17 +121,19 @@ struct Registration {
     models.addNormalModel("vielto", VIELTO);
     models.addTangentialModel("vielto", TANGENTIAL_VIELTO);
     models.addRollingModel("vielto", ROLLING_VIELTO);
+    models.addNormalModel("cohfrict", COHFRICT);
     add_touching<Plain>();
     add_touching<PlainRolling>();
     add_touching<Sjkr>();
     add_touching<SjkrRolling>();
     add_touching<Sjkr2>();
     add_touching<Sjkr2Rolling>();
-    // a capillary bridge pulls beyond contact and needs LIGGGHTS' own loop
+    // a capillary bridge and a stretched bond pull beyond contact and need LIGGGHTS' own loop
     add_bridging<ViElToStyle<COHESION_EASO_CAPILLARY_VISCOUS, ROLLING_OFF>>();
     add_bridging<ViElToStyle<COHESION_EASO_CAPILLARY_VISCOUS, ROLLING_VIELTO>>();
     add_bridging<ViElToStyle<COHESION_WASHINO_CAPILLARY_VISCOUS, ROLLING_OFF>>();
     add_bridging<ViElToStyle<COHESION_WASHINO_CAPILLARY_VISCOUS, ROLLING_VIELTO>>();
+    add_bridging<GranStyle<COHFRICT, TANGENTIAL_OFF, COHESION_OFF, ROLLING_OFF, SURFACE_DEFAULT>>();
   }
 };
 

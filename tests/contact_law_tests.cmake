@@ -10,10 +10,12 @@ endfunction()
 foreach(name law_formulas_test law_rotation_test law_half_period_test)
   vielto_test(${name} ${name}.cpp LIBS vielto_law Eigen3::Eigen)
 endforeach()
+vielto_test(cohfrict_law_test cohfrict_law_test.cpp LIBS vielto_law)
 foreach(name liggghts_normal_impact_test liggghts_oblique_impact_test
     liggghts_rolling_test liggghts_chung_ooi_test liggghts_conservation_test
     liggghts_wall_motion_test liggghts_record_test liggghts_restart_test
-    liggghts_parallel_test liggghts_pair_loop_test liggghts_bodies_test liggghts_bad_input_test)
+    liggghts_parallel_test liggghts_pair_loop_test liggghts_bodies_test liggghts_bad_input_test
+    liggghts_cohfrict_test)
   vielto_liggghts_test(${name})
 endforeach()
 
