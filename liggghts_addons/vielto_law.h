@@ -38,8 +38,8 @@
 #include <cmath>
 
 // These small functions stand in the innermost loop: a call costs more than the work of most of them. What runs
-// seldom stays out of that loop.
-#if defined(__GNUC__)
+// seldom stays out of that loop. With sanitizers in them the inlined ones would take a compiler minutes.
+#if defined(__GNUC__) && !defined(__SANITIZE_ADDRESS__)
 #define VIELTO_INLINE inline __attribute__((always_inline))
 #define VIELTO_NOINLINE __attribute__((noinline))
 #else

@@ -16,6 +16,13 @@
 #include "pair_gran_base.h"
 // clang-format on
 
+// All of a contact in one function; with sanitizers in it that one would take a compiler a quarter of an hour.
+#if defined(__SANITIZE_ADDRESS__)
+#define VIELTO_FLATTEN
+#else
+#define VIELTO_FLATTEN __attribute__((flatten))
+#endif
+
 namespace vielto {
 
 /* LIGGGHTS keeps the model of a pair style, and its tables of styles, private and offers no way to them. An explicit
@@ -68,7 +75,7 @@ class FastPair : public LIGGGHTS::PairStyles::Granular<LIGGGHTS::ContactModels::
  private:
   // Step: forces are wanted and the history goes on, as in every step of a run.
   template <bool Step>
-  __attribute__((flatten)) void loop(LAMMPS_NS::PairGran* pg) {
+  VIELTO_FLATTEN void loop(LAMMPS_NS::PairGran* pg) {
     using namespace LIGGGHTS::ContactModels;
     LAMMPS_NS::Atom* const grains = program_->atom;
     double* const* const x = grains->x;
