@@ -23,7 +23,9 @@
 #include "contact_models.h"
 #include "pair_gran_base.h"
 #include "fix_wall_gran_base.h"
+#include "fix_vielto_plate.h"
 #include "fix_vielto_record.h"
+#include "fix_vielto_shear.h"
 #include "vielto_command.h"
 // clang-format on
 
@@ -54,7 +56,10 @@ struct CommandTable {
 };
 template struct Opened<CommandTable, &Input::command_map>;
 
-Fix* make_record(LAMMPS* lmp, int narg, char** arg) { return new FixViEltoRecord(lmp, narg, arg); }
+template <class Style>
+Fix* make_fix(LAMMPS* lmp, int narg, char** arg) {
+  return new Style(lmp, narg, arg);
+}
 
 void run_command(LAMMPS* lmp, int narg, char** arg) {
   ViEltoCommand command(lmp);
@@ -64,7 +69,10 @@ void run_command(LAMMPS* lmp, int narg, char** arg) {
 }  // namespace
 
 void install(LAMMPS* lmp) {
-  (*(lmp->modify->*member(FixTable())))["vielto/record"] = &make_record;
+  std::map<std::string, Fix* (*)(LAMMPS*, int, char**)>& fixes = *(lmp->modify->*member(FixTable()));
+  fixes["vielto/record"] = &make_fix<FixViEltoRecord>;
+  fixes["vielto/plate"] = &make_fix<FixViEltoPlate>;
+  fixes["vielto/shear"] = &make_fix<FixViEltoShear>;
   (*(lmp->input->*member(CommandTable())))["vielto"] = &run_command;
 }
 
