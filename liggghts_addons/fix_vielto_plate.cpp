@@ -103,10 +103,11 @@ void FixViEltoPlate::move(double dz) {
   height_ += dz;
 }
 
-// Half a step of the velocity; the damping implicitly, so that any c is stable.
+// Half a step of the velocity under constant force; with the damper exactly, so that any c is stable.
 void FixViEltoPlate::kick() {
-  const double half = 0.5 * update->dt;
-  velocity_ = (velocity_ + half * (force_ / mass_ + gravity_)) / (1 + half * damping_ / mass_);
+  const double half = 0.5 * update->dt, acceleration = force_ / mass_ + gravity_;
+  const double rate = damping_ / mass_;
+  velocity_ += rate > 0 ? -std::expm1(-rate * half) * (acceleration / rate - velocity_) : half * acceleration;
 }
 
 void FixViEltoPlate::show_velocity() {
