@@ -87,9 +87,10 @@ TEST(ShearboxResume, CarriesOnAKilledRunOnOneAndTwoRanks) {
   rig.must("whole", coarse_shear, restarts);
   const std::string partial = (rig.folder / "broken.partial").string();
   const Outcome killed = rig.shell(fmt::format(
-      "{} & p=$!; until [ -e {}/restart ] && [ $(tail -n 1 {}/shear.csv | cut -d, -f1) -gt $(ls {}/restart | sort -n | "
-      "head -1 | cut -d. -f1) ]; do kill -0 $p || exit 99; sleep 0.02; done 2>/dev/null; kill -9 $p; wait $p",
-      rig.command_of("broken", coarse_shear, restarts), partial, partial, partial));
+      "d='{}'; first() {{ ls $d/restart | sort -n | head -1 | cut -d. -f1; }}; last() {{ tail -n 1 $d/shear.csv | cut -d, "
+      "-f1; }}; {} & p=$!; until [ -n \"$(first)\" ] && [ $(last) -gt $(first) ]; do kill -0 $p || exit 99; sleep 0.02; "
+      "done 2>/dev/null; kill -9 $p; wait $p",
+      partial, rig.command_of("broken", coarse_shear, restarts)));
   ASSERT_EQ(killed.status, 128 + 9) << killed.text;
   fs::copy(partial, rig.folder / "two.partial", fs::copy_options::recursive);
   rig.must("broken", coarse_shear, restarts + "-var resume yes");
