@@ -18,6 +18,7 @@ NORMAL_MODEL(VIELTO, vielto, 20)
 
 #include "contact_models.h"
 #include "fix_mesh_surface.h"
+#include "neighbor.h"
 #include "normal_model_base.h"
 #include "tri_mesh.h"
 #include "vielto_properties.h"
@@ -63,6 +64,9 @@ class NormalModel<VIELTO> : public NormalModelBase {
   void connectToProperties(PropertyRegistry&) {
     pairs_.read(lmp);
     if (force->cg_active()) error->cg(FLERR, "model vielto");
+    // LIGGGHTS' pair loop calls surfacesClose out to this multiple of the radii: without it the history of a contact that
+    // has ended would still be there when the grains meet again
+    neighbor->register_contact_dist_factor(1.01);
   }
 
   // the normal spring is linear

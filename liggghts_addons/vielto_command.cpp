@@ -10,12 +10,14 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
 #include <string>
 #include <vector>
 
+#include "atom.h"
 #include "bad_input.h"
 #include "comm.h"
 #include "error.h"
@@ -90,9 +92,9 @@ long long step_of(const fs::path& file) {
   return atoll(name.c_str());
 }
 
-// Step of the last whole row of a torque record; 0 if there is none.
-long long last_step(const fs::path& record) {
-  std::ifstream in(record);
+// Step of the last whole row of the record in a run folder (torque.csv, shear.csv); 0 if there is none.
+long long last_step(const fs::path& partial) {
+  std::ifstream in(partial / (fs::exists(partial / "shear.csv") ? "shear.csv" : "torque.csv"));
   long long step = 0;
   for (std::string line; std::getline(in, line) && !in.eof();)
     if (!line.empty() && line[0] >= '0' && line[0] <= '9') step = atoll(line.c_str());
@@ -102,7 +104,7 @@ long long last_step(const fs::path& record) {
 /* The last restart file that is surely whole: the run went on after it and wrote a row. One that was being written when
    the run was broken off is left alone. */
 std::string newest_restart(const fs::path& partial) {
-  const long long end = last_step(partial / "torque.csv");
+  const long long end = last_step(partial);
   fs::path newest;
   if (!fs::exists(partial / "restart")) return "";
   for (const auto& entry : fs::directory_iterator(partial / "restart"))
@@ -147,12 +149,14 @@ void ViEltoCommand::command(int narg, char** arg) {
     provisional(narg, arg);
   else if (what == "resume" && narg == 3)
     resume(narg, arg);
+  else if (what == "grains" && narg > 1 && narg % 2 == 0)
+    grains(narg, arg);
   else if (what == "open" && narg > 2)
     open(narg, arg);
   else if (what == "close" && narg == 2)
     close(narg, arg);
   else
-    vielto::stop_all(lmp, "vielto: unknown form of this command; use error, half_period, shell, prime, words, check, provisional, open, resume or close");
+    vielto::stop_all(lmp, "vielto: unknown form of this command; use error, half_period, shell, prime, words, check, provisional, grains, open, resume or close");
 }
 
 void ViEltoCommand::half_period(int, char** arg) {
@@ -237,6 +241,40 @@ void ViEltoCommand::provisional(int narg, char** arg) {
   stop_if(fault);
   MPI_Bcast(&found, 1, MPI_INT, 0, world);
   set_variable(arg[1], found ? "1" : "0");
+}
+
+void ViEltoCommand::grains(int narg, char** arg) {
+  // x, y, z, radius and number of each grain that moves, from all processors
+  std::vector<double> mine;
+  for (int i = 0; i < atom->nlocal; i++)
+    if (atom->type[i] == 1) {
+      for (int d = 0; d < 3; d++) mine.push_back(atom->x[i][d]);
+      mine.push_back(atom->radius[i]);
+      mine.push_back(atom->tag[i]);
+    }
+  int length = static_cast<int>(mine.size());
+  std::vector<int> lengths(comm->nprocs), offsets(comm->nprocs);
+  MPI_Gather(&length, 1, MPI_INT, lengths.data(), 1, MPI_INT, 0, world);
+  int sum = 0;
+  for (int p = 0; p < comm->nprocs; p++) offsets[p] = sum, sum += lengths[p];
+  std::vector<double> all(sum);
+  MPI_Gatherv(mine.data(), length, MPI_DOUBLE, all.data(), lengths.data(), offsets.data(), MPI_DOUBLE, 0, world);
+  std::string fault;
+  if (comm->me == 0) {
+    std::map<int, std::string> rows;  // in the order of their numbers, whatever the processors
+    for (std::size_t k = 0; k < all.size(); k += 5) {
+      char line[120];
+      snprintf(line, sizeof line, "%.9g,%.9g,%.9g,%.9g\n", all[k], all[k + 1], all[k + 2], all[k + 3]);
+      rows[static_cast<int>(all[k + 4])] = line;
+    }
+    std::ofstream out(arg[1]);
+    for (int i = 2; i < narg; i += 2) out << "# " << arg[i] << '=' << arg[i + 1] << '\n';
+    out << "x_m,y_m,z_m,radius_m\n";
+    for (const auto& row : rows) out << row.second;
+    out.close();
+    if (!out) fault = std::string("vielto: cannot write ") + arg[1];
+  }
+  stop_if(fault);
 }
 
 void ViEltoCommand::open(int narg, char** arg) {

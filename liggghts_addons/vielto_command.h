@@ -12,6 +12,8 @@
                                                its parameters (or wall_PARAMETER) has been given a value of another kind: no
                                                number where it states one, none of the words its unit field allows (A, B or C)
      vielto provisional NAME F1 F2 ...         set variable NAME to 1 if a card's first line calls it provisional, else to 0
+     vielto grains FILE [KEY VALUE ...]        write x_m,y_m,z_m,radius_m of every grain of type 1, in the order of their
+                                               numbers, under lines # KEY=VALUE
      vielto open FOLDER parameters F1 F2 ... inputs G1 G2 ...
                                                make FOLDER.partial with run.json: the present values of all parameters stated
                                                in the files F (and wall_PARAMETER), hashes of all files F and G, versions,
@@ -45,6 +47,7 @@ class ViEltoCommand : protected Pointers {
   void provisional(int narg, char** arg);
   void set_variable(char* name, const char* value);
   void stop_if(const std::string& faultOnRankZero);
+  void grains(int narg, char** arg);
   void open(int narg, char** arg);
   void resume(int narg, char** arg);
   void close(int narg, char** arg);

@@ -23,7 +23,9 @@
 #include "contact_models.h"
 #include "pair_gran_base.h"
 #include "fix_wall_gran_base.h"
+#include "fix_vielto_plate.h"
 #include "fix_vielto_record.h"
+#include "fix_vielto_shear.h"
 #include "vielto_command.h"
 #include "vielto_pair.h"
 // clang-format on
@@ -64,6 +66,8 @@ void run_command(LAMMPS* lmp, int narg, char** arg) {
 void install(LAMMPS* lmp) {
   auto& fixes = *(lmp->modify->*Handed<FixTable>::pointer);
   fixes["vielto/record"] = &make_fix<FixViEltoRecord>;
+  fixes["vielto/plate"] = &make_fix<FixViEltoPlate>;
+  fixes["vielto/shear"] = &make_fix<FixViEltoShear>;
   fixes["vielto/watch"] = &make_fix<FixViEltoWatch>;
   (*(lmp->input->*Handed<CommandTable>::pointer))["vielto"] = &run_command;
 }

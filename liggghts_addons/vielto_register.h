@@ -12,7 +12,7 @@ class LAMMPS;
 
 namespace vielto {
 
-// Adds fix vielto/record and command vielto to this simulation; harmless if they are there.
+// Adds the fixes vielto/... and the command vielto to this simulation; harmless if they are there.
 void install(LAMMPS_NS::LAMMPS* lmp);
 
 }  // namespace vielto

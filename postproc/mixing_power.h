@@ -25,14 +25,13 @@
 #include <vector>
 
 #include "mean_uncertainty.h"
+#include "quality_limits.h"
 #include "torque_record.h"
 #include "whole_shaft.h"
 
 namespace vielto {
 
 constexpr double kScaleUncertainty = 0.05;  // relative
-constexpr double kMostDtOverTc = 0.05;
-constexpr double kMostOverlapMean = 0.005, kMostOverlapMax = 0.05;  // of the diameter
 constexpr double kMostEnergyGap = 0.01;                             // of the work
 constexpr double kMostSpeedDifference = 1e-3;                       // loaded to idling record
 constexpr double kFewSamples = 10;  // effective samples below which u is uncertain itself

@@ -30,11 +30,6 @@ std::string power_table(const MixingPower& power);
 // drum_Nm.
 std::string phase_csv(const MixingPower& power);
 
-struct TestLabel {
-  std::string test, role, wall;
-  std::optional<double> moisture;  // 1, wet basis
-};
-
 // Rows for power_loaded and power_idle, or power without an idling record, and for torque_ripple.
 std::vector<Observation> power_observations(const MixingPower& power, const TestLabel& label);
 

@@ -45,6 +45,12 @@ struct Observation {
   std::string material;
 };
 
+// What a program is told of a test, beside what the run itself knows.
+struct TestLabel {
+  std::string test, role, wall;
+  std::optional<double> moisture;  // 1, wet basis
+};
+
 struct Covariance {
   std::string test_a, observable_a, test_b, observable_b;
   double covariance = 0;  // product of the two observables' units

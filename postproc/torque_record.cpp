@@ -5,13 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <map>
-#include <string_view>
 
 #include "bad_input.h"
-#include "csv.h"
 #include "numbers.h"
+#include "record_file.h"
 
 namespace vielto {
 namespace {
@@ -19,70 +16,6 @@ namespace {
 constexpr double kMostPaddleMismatch = 0.01;  // of the mean absolute paddle torque
 // A time this close to the edge of a phase, in turns, is the edge: printed times are rounded.
 constexpr double kSliver = 1e-3 / kPhases;
-
-// The lines `# key=value`, each asked for by name.
-class Keys {
- public:
-  explicit Keys(const std::string& path) : path_(path) {}
-
-  void add(std::string_view line, int number) {
-    line.remove_prefix(1);
-    const auto equals = line.find('=');
-    if (equals == std::string_view::npos) return;  // a remark
-    const std::string key = trimmed(line.substr(0, equals));
-    if (!values_.emplace(key, std::pair(trimmed(line.substr(equals + 1)), number)).second)
-      throw BadInput(path_, number, fmt::format("key '{}' is stated twice", key), "keep one of the two lines");
-  }
-
-  std::string text(const std::string& key) const { return find(key).first; }
-  double number(const std::string& key, double least, bool above = false) const {
-    const auto& [value, line] = find(key);
-    const auto parsed = finite_number(value);
-    if (!parsed || *parsed < least || (above && *parsed == least))
-      throw BadInput(path_, line, fmt::format("key '{}' has the value '{}'", key, value),
-                     fmt::format("state a number {} {}", above ? "above" : "of at least", least));
-    return *parsed;
-  }
-  int integer(const std::string& key, int least) const {
-    const double value = number(key, least);
-    if (value != std::floor(value) || value > 1e9)
-      throw BadInput(path_, line(key), fmt::format("key '{}' has the value {}", key, value), "state a whole number");
-    return static_cast<int>(value);
-  }
-  std::vector<double> numbers(const std::string& key) const {
-    const auto& [value, line] = find(key);
-    std::vector<double> list;
-    for (std::string_view rest = value; !rest.empty();) {
-      const auto space = std::min(rest.find(' '), rest.size());
-      if (space > 0) {
-        const auto parsed = finite_number(rest.substr(0, space));
-        if (!parsed)
-          throw BadInput(path_, line, fmt::format("key '{}' holds '{}'", key, rest.substr(0, space)),
-                         "state numbers with spaces between them");
-        list.push_back(*parsed);
-      }
-      rest.remove_prefix(std::min(space + 1, rest.size()));
-    }
-    return list;
-  }
-  int line(const std::string& key) const { return find(key).second; }
-
- private:
-  static std::string trimmed(std::string_view text) {
-    while (!text.empty() && (text.back() == ' ' || text.back() == '\r')) text.remove_suffix(1);
-    while (!text.empty() && text.front() == ' ') text.remove_prefix(1);
-    return std::string(text);
-  }
-  const std::pair<std::string, int>& find(const std::string& key) const {
-    const auto found = values_.find(key);
-    if (found == values_.end())
-      throw BadInput(path_, 0, fmt::format("lacks the key '{}'", key), fmt::format("add a line '# {}=VALUE'", key));
-    return found->second;
-  }
-
-  const std::string& path_;
-  std::map<std::string, std::pair<std::string, int>> values_;
-};
 
 TorqueRecordHeader parse_header(const std::string& path, const Keys& keys) {
   if (keys.integer("schema", 0) != 1)
@@ -123,33 +56,6 @@ TorqueRecordHeader parse_header(const std::string& path, const Keys& keys) {
                    "state numbers whose product is 1");
   return h;
 }
-
-class Columns {
- public:
-  Columns(const std::string& path, int line, const std::string& text) : path_(path), line_(line) {
-    std::vector<std::string_view> fields;
-    split_fields(text, fields);
-    names_.assign(fields.begin(), fields.end());
-    for (std::size_t i = 0; i < names_.size(); ++i)
-      if (!index_.emplace(names_[i], i).second)
-        throw BadInput(path, line, names_[i], "is there twice", "keep one of the two columns");
-  }
-  std::size_t count() const { return names_.size(); }
-  const std::string& name(std::size_t i) const { return names_[i]; }
-  bool has(const std::string& name) const { return index_.count(name) > 0; }
-  std::size_t at(const std::string& name) const {
-    const auto found = index_.find(name);
-    if (found == index_.end())
-      throw BadInput(path_, line_, name, "is missing from the header", "record this column too");
-    return found->second;
-  }
-
- private:
-  const std::string& path_;
-  int line_;
-  std::vector<std::string> names_;
-  std::map<std::string, std::size_t> index_;
-};
 
 // Means over phases of the turn, one phase after another.
 class PhaseBins {
@@ -239,27 +145,6 @@ class Progress {
   double rows_ = 0;
 };
 
-// Reads the next row into `row`; false at the end of the file.
-bool read_row(std::ifstream& in, const std::string& path, int line, const Columns& columns, std::string& text,
-              std::vector<std::string_view>& fields, std::vector<double>& row) {
-  if (!std::getline(in, text)) return false;
-  split_fields(text, fields);
-  if (in.eof() || fields.size() != columns.count())
-    throw BadInput(path, line,
-                   in.eof() ? "is cut off: the last line does not end"
-                            : fmt::format("has {} values for {} columns", fields.size(), columns.count()),
-                   "remove the broken line, or run the case again");
-  row.resize(fields.size());
-  for (std::size_t i = 0; i < fields.size(); ++i) {
-    const auto value = finite_number(fields[i]);
-    if (!value)
-      throw BadInput(path, line, columns.name(i), fmt::format("'{}' is not a finite number", fields[i]),
-                     "run the case again; a record with such a value has no mean");
-    row[i] = *value;
-  }
-  return true;
-}
-
 // The paddles' own columns must add up to the part's.
 void check_paddles(const TorqueRecord& record) {
   if (record.paddle.empty()) return;
@@ -286,19 +171,13 @@ std::vector<double> TorqueRecord::rotor() const {
 }
 
 TorqueRecord read_torque_record(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
-  if (!in) throw BadInput(path, 0, "cannot be read", "name a run folder or its torque.csv");
-  std::string text;
-  int line = 0;
-  Keys keys(path);
-  while (std::getline(in, text) && text.rfind("#", 0) == 0) keys.add(text, ++line);
-  if (!in) throw BadInput(path, 0, line == 0 ? "is empty" : "has no header line", "run the case again");
+  RecordFile file(path, "a run folder or its torque.csv");
+  const Columns& columns = file.columns();
 
   TorqueRecord record;
   record.path = path;
-  record.header = parse_header(path, keys);
+  record.header = parse_header(path, file.keys());
   const TorqueRecordHeader& h = record.header;
-  const Columns columns(path, ++line, text);
   Progress progress(path, h, columns);
 
   // The signals kept by phase, in this order.
@@ -318,10 +197,9 @@ TorqueRecord read_torque_record(const std::string& path) {
 
   PhaseBins bins(kept.size());
   std::vector<double> row, values(kept.size());
-  std::vector<std::string_view> fields;
   double turn_overlap_max = 0;
-  while (read_row(in, path, line + 1, columns, text, fields, row)) {
-    const double end = progress.end(row, ++line);
+  while (file.next_row(row)) {
+    const double end = progress.end(row, file.line());
     const double begin = end - progress.length();
     if (progress.rows() == 1) {
       record.first_turn = std::max(0, static_cast<int>(std::ceil(begin - kSliver)));

@@ -4,7 +4,9 @@
 
 #include <string>
 
+#include "cone_fit.h"
 #include "mixing_power.h"
+#include "shear_result.h"
 #include "torque_record.h"
 
 namespace vielto {
@@ -21,5 +23,12 @@ void draw_torque(const TorqueRecord& record, const MixingPower& power, const std
 // no dump or no mesh. Errors: BadInput for a dump without radius or velocity; std::runtime_error if the file cannot be
 // written.
 bool draw_grains(const std::string& run, const TorqueRecord& record, const std::string& path);
+
+// Shear stress and the plate's force over its area against the displacement: rows thin, block means thick, the steady
+// part shaded. Errors: std::runtime_error if the file cannot be written.
+void draw_shear(const ShearRecord& record, const ShearResult& result, const std::string& path);
+
+// The heap's profile: the surface of all strips, their mean, the fitted line, the flank shaded. Errors as above.
+void draw_heap(const Heap& heap, const ConeFit& fit, const std::string& path);
 
 }  // namespace vielto

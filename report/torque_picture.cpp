@@ -1,63 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <fmt/format.h>
-#include <vtkAxis.h>
-#include <vtkChartLegend.h>
-#include <vtkChartXY.h>
-#include <vtkContextScene.h>
-#include <vtkContextView.h>
-#include <vtkFloatArray.h>
-#include <vtkNew.h>
-#include <vtkPen.h>
-#include <vtkPlotArea.h>
-#include <vtkPlotLine.h>
-#include <vtkRenderWindow.h>
-#include <vtkRenderer.h>
-#include <vtkTable.h>
-#include <vtkTextProperty.h>
-
 #include <algorithm>
 #include <vector>
 
+#include "chart.h"
 #include "picture.h"
-#include "render.h"
 #include "steady_part.h"
 
 namespace vielto {
-namespace {
-
-constexpr int kWidth = 1600, kHeight = 900;
-
-vtkNew<vtkTable> table(const std::vector<std::pair<const char*, std::vector<double>>>& columns) {
-  vtkNew<vtkTable> result;
-  for (const auto& [name, values] : columns) {
-    vtkNew<vtkFloatArray> array;
-    array->SetName(name);
-    for (const double value : values) array->InsertNextValue(static_cast<float>(value));
-    result->AddColumn(array);
-  }
-  return result;
-}
-
-void add_line(vtkChartXY* chart, const char* label, const std::vector<double>& x, const std::vector<double>& y,
-              const unsigned char (&rgb)[3], float width) {
-  vtkPlot* line = chart->AddPlot(vtkChart::LINE);
-  const auto data = table({{"time", x}, {label, y}});
-  line->SetInputData(data, 0, 1);
-  line->SetColor(rgb[0], rgb[1], rgb[2], 255);
-  line->SetWidth(width);
-}
-
-void label_axis(vtkAxis* axis, const char* title, double low, double high) {
-  axis->SetTitle(title);
-  axis->GetTitleProperties()->SetFontSize(26);
-  axis->GetTitleProperties()->BoldOff();
-  axis->GetLabelProperties()->SetFontSize(22);
-  axis->SetBehavior(vtkAxis::FIXED);
-  axis->SetRange(low, high);
-}
-
-}  // namespace
-
 void draw_torque(const TorqueRecord& record, const MixingPower& power, const std::string& path) {
   const double scale = record.header.whole_drum(), turn_time = 1 / record.header.speed;
   std::vector<double> torque = record.rotor();
@@ -77,44 +27,19 @@ void draw_torque(const TorqueRecord& record, const MixingPower& power, const std
   const double low = std::min(0.0, *least * 1.05), high = std::max(0.0, *most * 1.3);
   const double from = power.turn_first * turn_time, to = from + power.averaged.count * turn_time;
 
-  vtkNew<vtkContextView> view;
-  vtkNew<vtkChartXY> chart;
-  view->GetScene()->AddItem(chart);
-  view->GetRenderer()->SetBackground(1, 1, 1);
-  view->GetRenderWindow()->SetOffScreenRendering(1);
-  view->GetRenderWindow()->SetMultiSamples(4);
-  view->GetRenderWindow()->SetSize(kWidth, kHeight);
-
-  // An area of two points would not be drawn.
-  vtkPlot* window = chart->AddPlot(vtkChart::AREA);
-  const auto shade = table(
-      {{"time", {from, 0.5 * (from + to), to}}, {"low", {low, low, low}}, {"averaged turns", {high, high, high}}});
-  auto* area = vtkPlotArea::SafeDownCast(window);
-  area->SetInputData(shade);
-  area->SetInputArray(0, "time");
-  area->SetInputArray(1, "low");
-  area->SetInputArray(2, "averaged turns");
-  area->SetColor(120, 170, 120, 60);
-  area->SetLabel("averaged turns");
+  Chart chart(fmt::format("{}{}, fill {}, {} 1/s: {:.2f} N m, mixing power {:.1f} W, standard uncertainty {:.1f} W",
+                          record.header.material, record.header.provisional ? " (provisional)" : "",
+                          record.header.fill, record.header.speed, power.torque.mean, power.power.mean, power.power.u));
+  chart.shade("averaged turns", from, to, low, high);
   const std::string of = record.header.slice == 0 ? "torque on the grains"
                                                   : fmt::format("torque on the grains, slice times {}/{}",
                                                                 record.header.paddles, record.header.slice);
-  add_line(chart, of.c_str(), time, torque, {70, 110, 170}, 1.5F);
-  add_line(chart, "turn mean", stairs_time, stairs, {200, 90, 20}, 4);
-
-  label_axis(chart->GetAxis(vtkAxis::BOTTOM), "time since the rotor started / s", record.first_turn * turn_time,
-             (record.first_turn + record.turns) * turn_time);
-  label_axis(chart->GetAxis(vtkAxis::LEFT), "torque / (N m)", low, high);
-  chart->SetTitle(fmt::format("{}{}, fill {}, {} 1/s: {:.2f} N m, mixing power {:.1f} W, standard uncertainty {:.1f} W",
-                              record.header.material, record.header.provisional ? " (provisional)" : "",
-                              record.header.fill, record.header.speed, power.torque.mean, power.power.mean,
-                              power.power.u));
-  chart->GetTitleProperties()->SetFontSize(26);
-  chart->SetShowLegend(true);
-  chart->GetLegend()->SetLabelSize(22);
-  chart->GetLegend()->SetHorizontalAlignment(vtkChartLegend::RIGHT);
-  chart->GetLegend()->SetVerticalAlignment(vtkChartLegend::TOP);
-  write_png(view->GetRenderWindow(), path);
+  chart.line(of, time, torque, kBlue, 1.5F);
+  chart.line("turn mean", stairs_time, stairs, kOrange, 4);
+  chart.horizontal_axis("time since the rotor started / s", record.first_turn * turn_time,
+                        (record.first_turn + record.turns) * turn_time);
+  chart.vertical_axis("torque / (N m)", low, high);
+  chart.write(path);
 }
 
 }  // namespace vielto

@@ -1,10 +1,19 @@
 # The contact law alone, and `liggghts` with it through its command line: ours, and the stock one with the library
 # preloaded.
 find_program(STOCK_LIGGGHTS NAMES liggghts PATHS /usr/bin NO_DEFAULT_PATH REQUIRED)
+# A library with sanitizers in it needs their runtime in front of it in the stock program.
+set(VIELTO_PRELOAD "")
+if(VIELTO_SANITIZE)
+  foreach(runtime asan ubsan)
+    execute_process(COMMAND ${CMAKE_CXX_COMPILER} -print-file-name=lib${runtime}.so OUTPUT_VARIABLE path
+      OUTPUT_STRIP_TRAILING_WHITESPACE)
+    string(APPEND VIELTO_PRELOAD "${path}:")
+  endforeach()
+endif()
 function(vielto_liggghts_test name)
   vielto_test(${name} ${name}.cpp LIBS Eigen3::Eigen fmt::fmt)
   add_dependencies(${name} vielto_run vielto_liggghts)
-  target_compile_definitions(${name} PRIVATE VIELTO_LIBRARY="$<TARGET_FILE:vielto_liggghts>"
+  target_compile_definitions(${name} PRIVATE VIELTO_LIBRARY="${VIELTO_PRELOAD}$<TARGET_FILE:vielto_liggghts>"
     VIELTO_STOCK_LIGGGHTS="${STOCK_LIGGGHTS}" VIELTO_MPIEXEC="${MPIEXEC_EXECUTABLE}")
 endfunction()
 foreach(name law_formulas_test law_rotation_test law_half_period_test)

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "heap.h"
+
+#include "bad_input.h"
+#include "record_file.h"
+
+namespace vielto {
+
+Heap read_heap(const std::string& path) {
+  RecordFile file(path, "a run folder or its heap.csv");
+  const Keys& keys = file.keys();
+  if (keys.integer("schema", 0) != 1)
+    throw BadInput(path, keys.line("schema"), "the schema is not 1",
+                   "write the record with this package's own version");
+  Heap heap;
+  heap.path = path;
+  HeapHeader& h = heap.header;
+  h.lift_speed = keys.number("lift_speed", 0, true);
+  h.grain_diameter = keys.number("grain_diameter", 0, true);
+  h.cylinder_diameter = keys.number("cylinder_diameter", 0, true);
+  h.youngs_modulus = keys.number("youngs_modulus", 0, true);
+  h.dt_over_tc = keys.number("dt_over_tc", 0);
+  h.rest_time = keys.number("rest_time", 0);
+  h.base = keys.text("base");
+  h.seed = keys.text("seed");
+  h.material = keys.text("material");
+  h.wall = keys.text("wall");
+  h.provisional = keys.integer("provisional", 0) != 0;
+
+  const Columns& c = file.columns();
+  const std::size_t x = c.at("x_m"), y = c.at("y_m"), z = c.at("z_m"), radius = c.at("radius_m");
+  for (std::vector<double> row; file.next_row(row);) {
+    if (!(row[radius] > 0))
+      throw BadInput(path, file.line(), "radius_m", "is not above 0", "run the case again");
+    heap.grains.push_back({row[x], row[y], row[z], row[radius]});
+  }
+  if (heap.grains.empty()) throw BadInput(path, 0, "holds no grain", "run the case again");
+  return heap;
+}
+
+}  // namespace vielto

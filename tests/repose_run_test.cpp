@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// cases/repose from filling to the heap's grains, and the angle that `vielto post` makes of it.
+#include <nlohmann/json.hpp>
+
+#include "rig_runner.h"
+
+using namespace vielto_test;
+namespace fs = std::filesystem;
+
+namespace {
+
+// Asked for: 825 kg/m3 in the cylinder's inscribed circle up to 50 mm, of grains with the three sizes' mean mass.
+double grains_asked() {
+  const double d = 0.005, s = 0.0556 * std::sqrt(3);
+  const double volume = pi / 6 * d * d * d * (2.0 / 3 + (std::pow(1 - s, 3) + std::pow(1 + s, 3)) / 6);
+  return 825 * pi * std::pow(0.025 * std::cos(pi / 36), 2) * 0.05 / (1375 * volume);
+}
+
+}  // namespace
+
+TEST(ReposeRun, LeavesAHeapOfAllGrainsWithAnAngle) {
+  Rig rig("repose");
+  rig.must("run", coarse_heap);
+  const Table grains = rig.csv("run/heap.csv");
+  EXPECT_EQ(static_cast<double>(grains.rows.size()), std::round(grains_asked()));
+  double highest = 0, farthest = 0;
+  for (std::size_t k = 0; k < grains.rows.size(); k++) {
+    const double z = grains.at(k, "z_m"), r = grains.at(k, "radius_m");
+    EXPECT_GT(z, 0.9 * r);
+    highest = std::max(highest, z + r);
+    farthest = std::max(farthest, std::hypot(grains.at(k, "x_m"), grains.at(k, "y_m")));
+  }
+  EXPECT_LT(highest, 0.045);  // it slumped from 50 mm
+  EXPECT_GT(highest, 0.01);
+  EXPECT_GT(farthest, 0.03);
+  const Outcome done = rig.vielto("post run --test coarse");
+  ASSERT_EQ(done.status, 0) << done.text;
+  const auto json = nlohmann::json::parse(rig.read("run/post/repose.json"));
+  EXPECT_GT(json["angle_deg"], 5);
+  EXPECT_LT(json["angle_deg"], 40);
+  EXPECT_NE(rig.read("run/post/observations.csv").find("coarse,fit,repose,angle,"), std::string::npos);
+}
+
+TEST(ReposeRun, IsDecidedByItsSeed) {
+  Rig rig("repose");
+  const std::string small = "-var fillHeight 0.02 ";
+  rig.must("a", coarse_heap, small);
+  rig.must("b", coarse_heap, small);
+  rig.must("other", coarse_heap, small + "-var seed 2");
+  EXPECT_EQ(rig.read("a/heap.csv"), rig.read("b/heap.csv"));
+  EXPECT_NE(rig.csv("a/heap.csv").at(0, "x_m"), rig.csv("other/heap.csv").at(0, "x_m"));
+}
+
+// On a rough base fixed grains hold the foot: the heap is steeper, and they are no part of it.
+TEST(ReposeRun, StandsSteeperOnARoughBase) {
+  Rig rig("repose");
+  rig.must("plain", coarse_heap, "-var wall_frictionAngle 5");
+  rig.must("rough", coarse_heap, "-var wall_frictionAngle 5 -var base rough");
+  const auto highest = [&](const std::string& run) {
+    const Table grains = rig.csv(run + "/heap.csv");
+    EXPECT_EQ(static_cast<double>(grains.rows.size()), std::round(grains_asked()));
+    double top = 0;
+    for (std::size_t k = 0; k < grains.rows.size(); k++) top = std::max(top, grains.at(k, "z_m"));
+    return top;
+  };
+  EXPECT_GT(highest("rough"), highest("plain"));
+}
+
+struct Refusal {
+  std::string name, option;
+  std::vector<std::string> words;
+};
+void PrintTo(const Refusal& r, std::ostream* out) { *out << r.option; }
+class ReposeRefuses : public testing::TestWithParam<Refusal> {};
+
+TEST_P(ReposeRefuses, WithOneLine) {
+  Rig rig("repose");
+  rig.must_refuse("run", rig.rig("run", coarse_heap, GetParam().option), GetParam().words);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    BadInput, ReposeRefuses,
+    testing::Values(
+        Refusal{"NoLiftSpeed", "-var liftSpeed 0", {"liftSpeed is 0", "> 0"}},
+        Refusal{"FillOverCylinder", "-var fillHeight 0.07", {"fillHeight is 0.07", "cylinderHeight"}},
+        Refusal{"GrainTooLarge", "-var grainDiameter 0.006", {"grainDiameter is 0.006", "cylinderDiameter"}},
+        Refusal{"UnknownBase", "-var base sticky", {"base is 'sticky'", "plain or rough"}},
+        Refusal{"TimeStepOverLimit", "-var dtFraction 0.06", {"dtFraction is 0.06", "0.05"}},
+        Refusal{"MisspelledParameter", "-var liftspeed 1", {"-var liftspeed", "no such parameter"}},
+        Refusal{"BaseTooSmall", "-var baseWidth 0.04", {"vielto geometry", "failed"}},
+        Refusal{"NeverAtRest", "-var restDistance 1e-12 -var mostTime 0.15", {"not at rest", "mostTime"}}),
+    [](const auto& one) { return one.param.name; });
