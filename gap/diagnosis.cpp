@@ -67,25 +67,14 @@ std::vector<std::string> Diagnosis::applied() const {
   return {};
 }
 
-double best_log_odds(const std::vector<ModelEvidence>& models) {
-  double none = 0, best = -1e300;
-  for (const ModelEvidence& m : models) {
-    if (m.effects.empty() && !m.unknown)
-      none = m.log_evidence;
-    else
-      best = std::max(best, m.log_evidence);
-  }
-  return best - none;
-}
-
-Verdict verdict_of(const TableModel& model, std::vector<ModelEvidence>& models, double threshold,
+Verdict verdict_of(const TableModel& model, std::vector<ModelEvidence>& models, bool gap_found,
                    const Settings& settings) {
   std::sort(models.begin(), models.end(),
             [](const ModelEvidence& a, const ModelEvidence& b) { return a.probability > b.probability; });
   Verdict v;
   const auto none = std::find_if(models.begin(), models.end(),
                                  [](const ModelEvidence& m) { return m.effects.empty() && !m.unknown; });
-  if (best_log_odds(models) <= threshold) {
+  if (!gap_found) {
     v.verdict = "no_gap";
     v.fit_probability = fit_probability(model, *none);
     return v;
@@ -245,8 +234,8 @@ Diagnosis diagnose(const TableModel& model, const Threshold& threshold, const Se
   for (const std::string& row : model.outside) d.notes.push_back("extrapolated: " + row);
   d.threshold = threshold;
   d.models = all_evidence(fit, settings);
-  d.log_odds = best_log_odds(d.models);
-  const Verdict v = verdict_of(fit, d.models, threshold.log_odds, settings);
+  d.log_odds = largest_log_odds(fit, settings, fit.observed)[0];
+  const Verdict v = verdict_of(fit, d.models, d.log_odds > threshold.log_odds, settings);
   d.verdict = v.verdict;
   d.named = v.named;
   d.group = v.group;
@@ -274,7 +263,8 @@ Diagnosis diagnose(const TableModel& model, const Threshold& threshold, const Se
   // What would be said with other assumptions; the threshold stays.
   const auto vary = [&](const std::string& change, const TableModel& changed, const Settings& other) {
     std::vector<ModelEvidence> models = all_evidence(changed, other, 5);
-    const Verdict verdict = verdict_of(changed, models, threshold.log_odds, other);
+    const bool gap_found = largest_log_odds(changed, other, changed.observed)[0] > threshold.log_odds;
+    const Verdict verdict = verdict_of(changed, models, gap_found, other);
     double rivals = 0;
     const ModelEvidence* top = nullptr;
     for (const ModelEvidence& m : models) {
@@ -364,6 +354,7 @@ nlohmann::ordered_json diagnosis_json(const Diagnosis& d, const nlohmann::ordere
                           {"q_value", r.q}});
   j["shrink"] = d.shrink ? shrink_json(*d.shrink) : json();
   j["next_test"] = d.next_tests.empty() ? json() : next_json(d.next_tests[0]);
+  j["sentence"] = verdict_sentence(d);
   j["shrink_predicted"] = d.predicted ? shrink_json(*d.predicted) : json();
   j["next_tests"] = json::array();
   for (const NextTest& t : d.next_tests) j["next_tests"].push_back(next_json(t));

@@ -71,9 +71,8 @@ struct Verdict {
   double fit_probability = 1;
 };
 
-// `models` with probabilities; `log_odds` of the best rival.
-Verdict verdict_of(const TableModel& model, std::vector<ModelEvidence>& models, double threshold, const Settings& settings);
-double best_log_odds(const std::vector<ModelEvidence>& models);
+// `models` with probabilities, sorted by them; `gap_found`: the log odds exceed the threshold.
+Verdict verdict_of(const TableModel& model, std::vector<ModelEvidence>& models, bool gap_found, const Settings& settings);
 
 double absorbable_part(const TableModel& model, const Eigen::VectorXd& gap);
 
