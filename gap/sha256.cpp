@@ -3,6 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <stdlib.h>
+#include <unistd.h>
+
 #include <array>
 #include <cstdio>
 #include <filesystem>
@@ -24,6 +27,17 @@ std::string sha256_of_file(const std::string& path) {
   const std::string line = pipe && fgets(buffer.data(), static_cast<int>(buffer.size()), pipe.get()) ? buffer.data() : "";
   const std::string hash = line.substr(0, line.find(' '));
   if (hash.size() != 64) throw std::runtime_error(path + ": its SHA-256 cannot be taken; check the file and sha256sum");
+  return hash;
+}
+
+std::string sha256_of_text(const std::string& text) {
+  std::string path = (std::filesystem::temp_directory_path() / "vielto_sha256_XXXXXX").string();
+  const int file = mkstemp(path.data());
+  const bool written = file >= 0 && write(file, text.data(), text.size()) == static_cast<ssize_t>(text.size());
+  if (file >= 0) close(file);
+  if (!written) throw std::runtime_error(path + ": cannot be written; check the space left");
+  const std::string hash = sha256_of_file(path);
+  std::filesystem::remove(path);
   return hash;
 }
 

@@ -9,6 +9,8 @@ namespace vielto::gap {
 // 64 hexadecimal digits. Errors: std::runtime_error if the file cannot be read or sha256sum is missing.
 std::string sha256_of_file(const std::string& path);
 
+std::string sha256_of_text(const std::string& text);
+
 // Writes PATH.sha256 beside PATH in the format of `sha256sum -c`.
 void seal(const std::string& path);
 

@@ -92,7 +92,7 @@ struct Question {
       text += fmt::format("{} {} {} {:.6g}|", row.apparatus, row.observable, conditions_text(row), row.u);
     text += fmt::format("{}|{}|{}|{}|{}", fmt::join(o.without, ","), fmt::join(o.ignored, ","), o.runs_per_observation,
                         o.no_discrepancy, o.extrapolate);
-    return fmt::format("{:016x}", std::hash<std::string>()(text));
+    return sha256_of_text(text);
   }
 };
 
