@@ -14,10 +14,10 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// Every other strength of the response: fine enough for a maximum.
-std::vector<double> probe_strengths(const EffectResponse& e) {
+// Every `step`-th strength of the response and its ends.
+std::vector<double> probe_strengths(const EffectResponse& e, Index step) {
   std::vector<double> s;
-  for (Index k = 0; k < e.strengths.size(); k += 2) s.push_back(e.strengths[k]);
+  for (Index k = 0; k < e.strengths.size(); k += step) s.push_back(e.strengths[k]);
   if (e.high > 0) s.push_back(e.high);
   return s;
 }
@@ -35,7 +35,7 @@ double distance(const TableModel& model, const EffectResponse& a, double s, cons
   const VectorXd ra = a.response(s);
   const MatrixXd ca = model.null_covariance() + effect_covariance(model, a, s);
   double least = squared(ra, ca);  // b at 0
-  for (const double t : probe_strengths(b))
+  for (const double t : probe_strengths(b, 2))
     least = std::min(least, squared(ra - b.response(t), ca + effect_covariance(model, b, t)));
   return std::sqrt(least);
 }
@@ -51,7 +51,7 @@ Isolability isolability(const TableModel& model, const Settings& settings) {
   for (Index a = 0; a < m; ++a) {
     const EffectResponse& e = model.effects[a];
     result.effects.push_back(e.name);
-    for (const double s : probe_strengths(e)) {
+    for (const double s : probe_strengths(e, 6)) {  // the farthest one is at an end or broad
       if (s == 0) continue;
       result.detectability[a] =
           std::max(result.detectability[a], std::sqrt(squared(e.response(s), null + e.emulator(s))));
