@@ -21,8 +21,8 @@ using Eigen::VectorXd;
 
 struct Rig {
   std::string folder, script, post;
-  std::map<std::string, double> base;         // of every -var with a number
-  std::map<std::string, std::string> vars;    // condition -> -var
+  std::map<std::string, double> base;       // of every -var with a number
+  std::map<std::string, std::string> vars;  // condition -> -var
 };
 
 Rig read_rig(const TomlTable& file, const std::string& apparatus, const std::string& root) {
@@ -33,10 +33,12 @@ Rig read_rig(const TomlTable& file, const std::string& apparatus, const std::str
   rig.folder = (fs::path(root) / t.text("folder")).lexically_normal().string();
   rig.script = t.text("script");
   if (!fs::exists(fs::path(rig.folder) / rig.script))
-    t.refuse("script", fmt::format("{}/{} is not there", rig.folder, rig.script), "state --root, or a rig that can be run");
+    t.refuse("script", fmt::format("{}/{} is not there", rig.folder, rig.script),
+             "state --root, or a rig that can be run");
   if (t.has("post")) rig.post = t.text("post");
   const TomlTable vars = t.table("vars");
-  for (const auto& entry : vars.raw()) rig.vars[std::string(entry.first.str())] = vars.text(std::string(entry.first.str()));
+  for (const auto& entry : vars.raw())
+    rig.vars[std::string(entry.first.str())] = vars.text(std::string(entry.first.str()));
   const auto add = [&](const std::string& path, const std::string& prefix) {
     const ParFile par = ParFile::read((fs::path(rig.folder) / path).string());
     for (const Parameter& p : par.all()) {
@@ -63,9 +65,9 @@ std::vector<double> medians(const ModelEvidence& m) {
 
 }  // namespace
 
-Plan plan_confirmation(const Inputs& inputs, const TableModel& model, const Diagnosis& d, const Isolability& isolability,
-                       const std::string& rigs_file, const std::string& root, const std::string& runs, int seeds,
-                       const std::vector<std::string>& extra) {
+Plan plan_confirmation(const Inputs& inputs, const TableModel& model, const Diagnosis& d,
+                       const Isolability& isolability, const std::string& rigs_file, const std::string& root,
+                       const std::string& runs, int seeds, const std::vector<std::string>& extra) {
   std::vector<Index> fit_rows;
   for (std::size_t i = 0; i < model.rows.size(); ++i)
     if (model.rows[i].role == "fit") fit_rows.push_back(static_cast<Index>(i));
@@ -78,7 +80,8 @@ Plan plan_confirmation(const Inputs& inputs, const TableModel& model, const Diag
       v.effects = m->effects;
       v.strengths = medians(*m);
     }
-    if (name != "before" && fit.family_weights.size() > 0) v.parameters = recalibrated_parameters(fit, v.effects, v.strengths);
+    if (name != "before" && fit.family_weights.size() > 0)
+      v.parameters = recalibrated_parameters(fit, v.effects, v.strengths);
     plan.variants.push_back(v);
   };
   add_variant("before", nullptr);
@@ -138,7 +141,8 @@ Plan plan_confirmation(const Inputs& inputs, const TableModel& model, const Diag
           for (const VarChange& change : effect.vars) {
             if (!change.acts_on(row.apparatus)) continue;
             if (change.needs_base() && base.count(change.name) == 0)
-              throw BadInput(effect.path, 0, change.name, fmt::format("has no baseline value in the files of {}", row.apparatus),
+              throw BadInput(effect.path, 0, change.name,
+                             fmt::format("has no baseline value in the files of {}", row.apparatus),
                              "state it in the rig's parameter file");
             changed[change.name] = change.text(change.needs_base() ? base[change.name] : 0, v.strengths[e]);
             if (change.rule == VarRule::switched) run.share = v.strengths[e];
@@ -161,7 +165,8 @@ Plan plan_confirmation(const Inputs& inputs, const TableModel& model, const Diag
 }
 
 std::string command_line(const PlannedRun& run) {
-  return fmt::format("(cd '{}' && {}{})", run.folder, fmt::join(run.command, " "), run.post.empty() ? "" : " && " + run.post);
+  return fmt::format("(cd '{}' && {}{})", run.folder, fmt::join(run.command, " "),
+                     run.post.empty() ? "" : " && " + run.post);
 }
 
 void run_plan(const Plan& plan) {
@@ -225,7 +230,9 @@ Shrink measured_shrink(const Plan& plan, const Inputs& inputs, const TableModel&
         const Transform* t = effect_named(inputs, v.effects[e]).transform_of(row.apparatus, row.observable);
         if (!t || t->operation == Operation::shift) continue;
         const double g = t->amount(row, v.strengths[e]);
-        y[i] = t->operation == Operation::scale ? y[i] * (1 + g) : t->operation == Operation::add ? y[i] + g : y[i] * std::exp(g);
+        y[i] = t->operation == Operation::scale ? y[i] * (1 + g)
+               : t->operation == Operation::add ? y[i] + g
+                                                : y[i] * std::exp(g);
       }
     }
     simulated[v.name] = y;

@@ -135,11 +135,12 @@ VectorXd recalibrated_parameters(const TableModel& fit, const std::vector<std::s
   const VectorXd rest = fit.observed - mean_at(fit, response, strengths) + fit.family_shift;
   // The members' own scatter leaves the covariance: it is what is asked for.
   const MatrixXd centred = fit.family_members.colwise() - fit.family_shift;
-  const MatrixXd c = covariance_at(fit, response, strengths) -
-                     centred * fit.family_weights.asDiagonal() * centred.transpose();
+  const MatrixXd c =
+      covariance_at(fit, response, strengths) - centred * fit.family_weights.asDiagonal() * centred.transpose();
   VectorXd logs(fit.family_weights.size());
   for (Index m = 0; m < logs.size(); ++m)
-    logs[m] = std::log(std::max(fit.family_weights[m], 1e-300)) + log_normal_density(rest - fit.family_members.col(m), c);
+    logs[m] =
+        std::log(std::max(fit.family_weights[m], 1e-300)) + log_normal_density(rest - fit.family_members.col(m), c);
   const VectorXd w = (logs.array() - logs.maxCoeff()).exp();
   return fit.family_parameters.transpose() * (w / w.sum());
 }
@@ -158,8 +159,7 @@ Shrink shrink_of(const VectorXd& observed, const VectorXd& u, const VectorXd& be
   const Index n = observed.size();
   const auto mean_square = [&](const VectorXd& simulated, const std::vector<Index>& rows) {
     double sum = 0;
-    for (const Index i : rows)
-      sum += std::pow(simulated[i] / observed[i] - 1, 2) - std::pow(u[i] / observed[i], 2);
+    for (const Index i : rows) sum += std::pow(simulated[i] / observed[i] - 1, 2) - std::pow(u[i] / observed[i], 2);
     return std::max(0.0, sum / static_cast<double>(rows.size()));
   };
   std::vector<Index> all(n);
@@ -195,7 +195,8 @@ std::optional<Shrink> predicted_shrink(const TableModel& model, const Diagnosis&
   if (check.empty() || applied.empty()) return std::nullopt;
   const TableModel fit = model.part(rows_with_role(model, "fit"));
   // Recalibration: the shift of the family that the fit rows ask for, to first order.
-  const auto simulated = [&](const std::vector<std::string>& effects, const std::vector<double>& strengths, bool recalibrate) {
+  const auto simulated = [&](const std::vector<std::string>& effects, const std::vector<double>& strengths,
+                             bool recalibrate) {
     VectorXd y = mean_at(model, responses(model, effects), strengths) - model.family_shift;
     if (recalibrate && model.family_weights.size() > 0) {
       const auto response = responses(fit, effects);
@@ -218,9 +219,10 @@ std::optional<Shrink> predicted_shrink(const TableModel& model, const Diagnosis&
   const VectorXd observed = model.observed(check);
   if ((observed.array() == 0).any()) return std::nullopt;
   const VectorXd recalibrated = simulated({}, {}, true);
-  Shrink s = shrink_of(observed, u, simulated({}, {}, false), recalibrated, simulated(applied, median_strengths(*m), true),
-                       placebo ? simulated(placebo->effects, median_strengths(*placebo), true) : recalibrated,
-                       static_cast<int>(tests.size()));
+  Shrink s =
+      shrink_of(observed, u, simulated({}, {}, false), recalibrated, simulated(applied, median_strengths(*m), true),
+                placebo ? simulated(placebo->effects, median_strengths(*placebo), true) : recalibrated,
+                static_cast<int>(tests.size()));
   if (placebo) s.placebo_name = placebo->name();
   return s;
 }
@@ -305,12 +307,13 @@ Diagnosis diagnose(const TableModel& model, const Threshold& threshold, const Se
 }
 
 nlohmann::ordered_json shrink_json(const Shrink& s) {
-  nlohmann::ordered_json j = {{"tests", s.tests},
-                              {"before", s.before},
-                              {"recalibrated", s.recalibrated},
-                              {"after", s.after},
-                              {"placebo", s.placebo},
-                              {"closed", {{"value", s.closed.value}, {"low90", s.closed.low90}, {"high90", s.closed.high90}}}};
+  nlohmann::ordered_json j = {
+      {"tests", s.tests},
+      {"before", s.before},
+      {"recalibrated", s.recalibrated},
+      {"after", s.after},
+      {"placebo", s.placebo},
+      {"closed", {{"value", s.closed.value}, {"low90", s.closed.low90}, {"high90", s.closed.high90}}}};
   if (!s.placebo_name.empty()) j["placebo_effect"] = s.placebo_name;
   return j;
 }
@@ -367,7 +370,8 @@ nlohmann::ordered_json diagnosis_json(const Diagnosis& d, const nlohmann::ordere
   j["fit_probability"] = d.fit_probability;
   j["sensitivity"] = json::array();
   for (const Sensitivity& s : d.sensitivity)
-    j["sensitivity"].push_back({{"change", s.change}, {"verdict", s.verdict}, {"top", s.top}, {"probability", s.probability}});
+    j["sensitivity"].push_back(
+        {{"change", s.change}, {"verdict", s.verdict}, {"top", s.top}, {"probability", s.probability}});
   j["rows"] = {{"fit", d.fit_rows}, {"check", d.check_rows}};
   j["notes"] = d.notes;
   j["provenance"] = provenance;
@@ -385,17 +389,18 @@ std::string verdict_sentence(const Diagnosis& d) {
                        s.interval.low90, s.interval.high90);
   };
   if (d.verdict == "no_gap")
-    return fmt::format("No gap: the measurement agrees with the calibrated simulation within everything that is uncertain "
-                       "(probability of no gap {:.0f} %).",
-                       probability("no_gap"));
+    return fmt::format(
+        "No gap: the measurement agrees with the calibrated simulation within everything that is uncertain "
+        "(probability of no gap {:.0f} %).",
+        probability("no_gap"));
   if (d.verdict == "unknown")
     return "There is a gap, and none of the effects in the library nor any two of them explain it.";
   if (d.verdict == "ambiguous")
     return fmt::format("There is a gap; these effects explain it alike and these data do not tell them apart: {}.",
                        fmt::join(d.group, ", "));
   if (d.named.size() == 2)
-    return fmt::format("There is a gap, explained by two effects together: {}, and {} (probability {:.0f} %).", strength(0),
-                       strength(1), probability(d.named[0] + "+" + d.named[1]));
+    return fmt::format("There is a gap, explained by two effects together: {}, and {} (probability {:.0f} %).",
+                       strength(0), strength(1), probability(d.named[0] + "+" + d.named[1]));
   return fmt::format("There is a gap, explained by {} (probability {:.0f} %).", strength(0), probability(d.named[0]));
 }
 

@@ -3,13 +3,16 @@
 //
 // Verdict, from the evidence of all models (evidence.h):
 //   no_gap     the best rival's log odds stay below the bootstrap threshold
-//   unknown    the unnamed gap holds more than unknown_probability of the rivals' probability, or the most probable named
+//   unknown    the unnamed gap holds more than unknown_probability of the rivals' probability, or the most probable
+//   named
 //              model does not fit (chi^2 of the table about its most probable strengths, rarer than misfit_probability)
-//   named      one model holds name_probability of the rivals' probability; or one effect does, alone and in pairs together,
+//   named      one model holds name_probability of the rivals' probability; or one effect does, alone and in pairs
+//   together,
 //              and alone it is more probable than any pair
 //   ambiguous  else; the group is the smallest set of single effects that holds group_probability of the singles'
-// Absorbable by recalibration: with g the gap (of the named effect, else the observed one), A the covariance of the family and
-// N = C(0) - A, the shift the family would take is h = A (A + N)^-1 g and the part absorbed 1 - (g-h)' N^-1 (g-h) / g' N^-1 g.
+// Absorbable by recalibration: with g the gap (of the named effect, else the observed one), A the covariance of the
+// family and N = C(0) - A, the shift the family would take is h = A (A + N)^-1 g and the part absorbed 1 - (g-h)' N^-1
+// (g-h) / g' N^-1 g.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -51,8 +54,8 @@ struct Diagnosis {
   double absorbable = 0;
   Location where;
   Threshold threshold;
-  double log_odds = 0;  // of the best rival
-  double fit_probability = 1;  // of the chi^2 of the most probable named model (or of no gap)
+  double log_odds = 0;              // of the best rival
+  double fit_probability = 1;       // of the chi^2 of the most probable named model (or of no gap)
   std::optional<Shrink> shrink;     // measured by re-simulation
   std::optional<Shrink> predicted;  // by the emulator, before it
   std::vector<NextTest> next_tests;
@@ -72,7 +75,8 @@ struct Verdict {
 };
 
 // `models` with probabilities, sorted by them; `gap_found`: the log odds exceed the threshold.
-Verdict verdict_of(const TableModel& model, std::vector<ModelEvidence>& models, bool gap_found, const Settings& settings);
+Verdict verdict_of(const TableModel& model, std::vector<ModelEvidence>& models, bool gap_found,
+                   const Settings& settings);
 
 double absorbable_part(const TableModel& model, const Eigen::VectorXd& gap);
 
@@ -88,10 +92,12 @@ const ModelEvidence* placebo_of(const Diagnosis& diagnosis, const Isolability& i
 
 // The shrink from simulated values of the check rows, all in the order of `observed`; bootstrap over the rows.
 Shrink shrink_of(const Eigen::VectorXd& observed, const Eigen::VectorXd& u, const Eigen::VectorXd& before,
-                 const Eigen::VectorXd& recalibrated, const Eigen::VectorXd& after, const Eigen::VectorXd& placebo, int tests);
+                 const Eigen::VectorXd& recalibrated, const Eigen::VectorXd& after, const Eigen::VectorXd& placebo,
+                 int tests);
 
 // What the emulator expects of the re-simulation; nothing without check rows or for no_gap and unknown.
-std::optional<Shrink> predicted_shrink(const TableModel& model, const Diagnosis& diagnosis, const Isolability& isolability);
+std::optional<Shrink> predicted_shrink(const TableModel& model, const Diagnosis& diagnosis,
+                                       const Isolability& isolability);
 
 nlohmann::ordered_json diagnosis_json(const Diagnosis& diagnosis, const nlohmann::ordered_json& provenance);
 nlohmann::ordered_json shrink_json(const Shrink& shrink);

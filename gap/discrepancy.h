@@ -8,8 +8,8 @@
 // with sd > 0, w = common from 0 to 1, l = length > 0 and the number of development laws it rests on.
 //
 // Estimated from development laws (tables of runs with other laws): on a grid of (sd, w, l) with prior 1/sd, given the
-// noise of every difference; sd is the root of the posterior mean of sd^2, so that few laws make it larger, not smaller;
-// w and l are posterior means. Development laws are not used in any withheld case.
+// noise of every difference; sd is the root of the posterior mean of sd^2, so that few laws make it larger, not
+// smaller; w and l are posterior means. Development laws are not used in any withheld case.
 #pragma once
 
 #include <Eigen/Dense>

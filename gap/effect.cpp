@@ -103,13 +103,24 @@ bool VarChange::needs_base() const {
 std::string VarChange::text(double base, double strength) const {
   double value = 0;
   switch (rule) {
-    case VarRule::value: value = factor * strength; break;
-    case VarRule::offset: value = base + factor * strength; break;
-    case VarRule::scale: value = base * (1 + factor * strength); break;
-    case VarRule::power10: value = base * std::pow(10, factor * strength); break;
-    case VarRule::divide: value = base / (1 + factor * strength); break;
+    case VarRule::value:
+      value = factor * strength;
+      break;
+    case VarRule::offset:
+      value = base + factor * strength;
+      break;
+    case VarRule::scale:
+      value = base * (1 + factor * strength);
+      break;
+    case VarRule::power10:
+      value = base * std::pow(10, factor * strength);
+      break;
+    case VarRule::divide:
+      value = base / (1 + factor * strength);
+      break;
     case VarRule::word:
-    case VarRule::switched: return word;
+    case VarRule::switched:
+      return word;
   }
   if (whole) value = std::round(value);
   return fmt::format("{:.9g}", value);

@@ -72,7 +72,8 @@ double Emulator::Channel::coordinate(std::size_t k, double value) const {
 Point Emulator::Channel::point(const Observation& row) const {
   Point p;
   p.c.resize(static_cast<Index>(varying.size()));
-  for (std::size_t k = 0; k < varying.size(); ++k) p.c[static_cast<Index>(k)] = coordinate(k, *(row.*varying[k].member));
+  for (std::size_t k = 0; k < varying.size(); ++k)
+    p.c[static_cast<Index>(k)] = coordinate(k, *(row.*varying[k].member));
   return p;
 }
 
@@ -112,9 +113,10 @@ Emulator::Channel Emulator::make_channel(const Library& library, const std::vect
     for (const LibraryValue* v : values) {
       const auto& x = v->row.*c.member;
       if (x.has_value() != (channel.sample.*c.member).has_value())
-        throw BadInput(folder_, 0, fmt::format("some rows of {} {} state {}, others do not", channel.apparatus,
-                                               channel.observable, c.name),
-                       "state it in all or none");
+        throw BadInput(
+            folder_, 0,
+            fmt::format("some rows of {} {} state {}, others do not", channel.apparatus, channel.observable, c.name),
+            "state it in all or none");
       if (x) low = std::min(low, *x), high = std::max(high, *x);
     }
     if (high - low > 1e-9 * std::max(std::fabs(low), std::fabs(high))) {
@@ -139,7 +141,8 @@ Emulator::Channel Emulator::make_channel(const Library& library, const std::vect
   }
   channel.size = std::sqrt(squares / std::max(count, 1));
 
-  // Seed variance: its logarithm varies by 2/(k-1) for k seeds, and is low by 1/(k-1) (mean of ln chi^2, to first order).
+  // Seed variance: its logarithm varies by 2/(k-1) for k seeds, and is low by 1/(k-1) (mean of ln chi^2, to first
+  // order).
   const Index sites = static_cast<Index>(baseline.size());
   VectorXd log_variance(sites), its_noise(sites);
   bool noisy = channel.apparatus != "bench";
@@ -151,7 +154,8 @@ Emulator::Channel Emulator::make_channel(const Library& library, const std::vect
     log_variance[i] = std::log(std::max(sum / std::max(k - 1, 1.0), 1e-14)) + 1 / std::max(k - 1, 1.0);
     its_noise[i++] = 2 / std::max(k - 1, 1.0);
   }
-  const auto make = [](GaussianProcess::Form form, std::vector<Point> points, const VectorXd& v, const MatrixXd& noise) {
+  const auto make = [](GaussianProcess::Form form, std::vector<Point> points, const VectorXd& v,
+                       const MatrixXd& noise) {
     return Smooth{GaussianProcess(form, points, v, noise), points, noise};
   };
   if (noisy)
@@ -163,18 +167,20 @@ Emulator::Channel Emulator::make_channel(const Library& library, const std::vect
     if (noisy) {
       const VectorXd log_v = channel.log_seed_variance->process.at(points_of(groups)).mean;
       Index g = 0;
-      for (const auto& group : groups) noise[g] = std::exp(log_v[g]) / static_cast<double>(group.second.values.size()), ++g;
+      for (const auto& group : groups)
+        noise[g] = std::exp(log_v[g]) / static_cast<double>(group.second.values.size()), ++g;
     }
     return noise;
   };
-  channel.level =
-      make(GaussianProcess::Form::level, points_of(baseline), means_of(baseline), MatrixXd(mean_noise(baseline).asDiagonal()));
+  channel.level = make(GaussianProcess::Form::level, points_of(baseline), means_of(baseline),
+                       MatrixXd(mean_noise(baseline).asDiagonal()));
 
   // Responses, as differences from the smoothed baseline, whose error they share.
   const auto response = [&](GaussianProcess::Form form, const std::map<std::string, Mean>& groups) {
     const std::vector<Point> points = points_of(groups);
     const GaussianProcess::Prediction base = channel.level.process.at(points);
-    return make(form, points, means_of(groups) - base.mean, MatrixXd(mean_noise(groups).asDiagonal()) + base.covariance);
+    return make(form, points, means_of(groups) - base.mean,
+                MatrixXd(mean_noise(groups).asDiagonal()) + base.covariance);
   };
   std::map<std::string, std::map<std::string, Mean>> by_effect;
   std::map<std::string, Mean> parameters;
@@ -186,7 +192,8 @@ Emulator::Channel Emulator::make_channel(const Library& library, const std::vect
       p.z = (run.parameters - nominal_).cwiseQuotient(spread_);
       parameters.try_emplace(text_of(p), Mean{p, {}}).first->second.values.push_back(smoothed(v->row.value));
     } else {
-      const auto effect = std::find_if(effects_.begin(), effects_.end(), [&](const Effect& e) { return e.name == run.effect; });
+      const auto effect =
+          std::find_if(effects_.begin(), effects_.end(), [&](const Effect& e) { return e.name == run.effect; });
       p.t = run.strength / largest_strength(*effect);
       by_effect[run.effect].try_emplace(text_of(p), Mean{p, {}}).first->second.values.push_back(smoothed(v->row.value));
     }
@@ -226,8 +233,8 @@ const Emulator::Channel& Emulator::channel_of(const ReducedTable& table, std::si
                  "add its runs to the library or remove the row");
 }
 
-void Emulator::check_row(const Channel& channel, const ReducedTable& table, std::size_t i, const EmulatorOptions& options,
-                         std::vector<std::string>& outside) const {
+void Emulator::check_row(const Channel& channel, const ReducedTable& table, std::size_t i,
+                         const EmulatorOptions& options, std::vector<std::string>& outside) const {
   const Observation& row = table.rows[i];
   const auto refuse = [&](const std::string& column, const std::string& what, const std::string& mend) {
     throw BadInput(table.path, table.lines[i], column, what, mend);
@@ -255,15 +262,16 @@ void Emulator::check_row(const Channel& channel, const ReducedTable& table, std:
     const double x = channel.coordinate(static_cast<std::size_t>(k - channel.varying.begin()), *stated);
     if (x < -1e-6 || x > 1 + 1e-6) {
       const std::size_t at = static_cast<std::size_t>(k - channel.varying.begin());
-      const std::string what = fmt::format("{} is outside the library's {} to {}", *stated, channel.low[at], channel.high[at]);
+      const std::string what =
+          fmt::format("{} is outside the library's {} to {}", *stated, channel.low[at], channel.high[at]);
       if (!options.extrapolate) refuse(c.name, what, "add runs there, or --extrapolate to be told all the same");
       outside.push_back(fmt::format("line {}: {} {}", table.lines[i], c.name, what));
     }
   }
 }
 
-void Emulator::fill_effect(const Channel& channel, const Effect& effect, const std::vector<Index>& rows, TableModel& model,
-                           EffectResponse& response) const {
+void Emulator::fill_effect(const Channel& channel, const Effect& effect, const std::vector<Index>& rows,
+                           TableModel& model, EffectResponse& response) const {
   const Transform* transform = effect.transform_of(channel.apparatus, channel.observable);
   const auto smooth = channel.responses.find(effect.name);
   const Index m = static_cast<Index>(rows.size());
@@ -288,7 +296,8 @@ void Emulator::fill_effect(const Channel& channel, const Effect& effect, const s
       const GaussianProcess::Prediction p = channel.level.process.at(both);
       const MatrixXd& c = p.covariance;
       change = p.mean.tail(m) - p.mean.head(m);
-      covariance = c.topLeftCorner(m, m) + c.bottomRightCorner(m, m) - c.topRightCorner(m, m) - c.bottomLeftCorner(m, m);
+      covariance =
+          c.topLeftCorner(m, m) + c.bottomRightCorner(m, m) - c.topRightCorner(m, m) - c.bottomLeftCorner(m, m);
     } else if (transform) {
       for (Index a = 0; a < m; ++a) {
         const double g = transform->amount(model.rows[rows[a]], s), f = model.baseline[rows[a]];
@@ -311,7 +320,8 @@ void Emulator::fill_effect(const Channel& channel, const Effect& effect, const s
       const double f = model.baseline[rows[a]];
       response.mean(rows[a], k) = channel.relative ? f * std::expm1(change[a]) : change[a];
       for (Index b = 0; b < m; ++b) {
-        const double scale = channel.relative ? f * std::exp(change[a]) * model.baseline[rows[b]] * std::exp(change[b]) : 1;
+        const double scale =
+            channel.relative ? f * std::exp(change[a]) * model.baseline[rows[b]] * std::exp(change[b]) : 1;
         response.covariance[k](rows[a], rows[b]) = scale * covariance(a, b);
       }
     }
@@ -338,7 +348,8 @@ TableModel Emulator::model(const ReducedTable& table, const EmulatorOptions& opt
     // Stated correlations may contradict each other.
     const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(model.noise, Eigen::EigenvaluesOnly);
     if (eigen.eigenvalues()[0] < -1e-9 * eigen.eigenvalues()[n - 1])
-      throw BadInput(table.covariance_path, 0, "is no covariance: its correlations contradict each other (not positive)",
+      throw BadInput(table.covariance_path, 0,
+                     "is no covariance: its correlations contradict each other (not positive)",
                      "correct the correlations");
   }
 
@@ -434,7 +445,8 @@ TableModel Emulator::model(const ReducedTable& table, const EmulatorOptions& opt
         known = false;
     }
     if (!known) {
-      model.notes.push_back(fmt::format("{} is no candidate: the library has no runs with it for all the table's observables", effect.name));
+      model.notes.push_back(fmt::format(
+          "{} is no candidate: the library has no runs with it for all the table's observables", effect.name));
       continue;
     }
     for (const auto& [channel, rows] : by_channel) fill_effect(*channel, effect, rows, model, response);
@@ -445,7 +457,8 @@ TableModel Emulator::model(const ReducedTable& table, const EmulatorOptions& opt
   // An unnamed gap: as large as the effects are at each row, smooth within an observable, alike within an apparatus.
   for (const EffectResponse& e : model.effects)
     model.unknown_scale += ((e.response(e.low / 2).cwiseAbs2() + e.response(e.high / 2).cwiseAbs2()) / 2);
-  model.unknown_scale = (model.unknown_scale / std::max<double>(1, static_cast<double>(model.effects.size()))).cwiseSqrt();
+  model.unknown_scale =
+      (model.unknown_scale / std::max<double>(1, static_cast<double>(model.effects.size()))).cwiseSqrt();
   model.unknown_scale = model.unknown_scale.cwiseMax(settings.unknown_floor * model.scale.cwiseAbs());
   for (Index i = 0; i < n; ++i)
     for (Index j = 0; j < n; ++j) {
@@ -460,8 +473,8 @@ TableModel Emulator::model(const ReducedTable& table, const EmulatorOptions& opt
   return model;
 }
 
-std::map<std::pair<std::string, std::string>, LawDifference> Emulator::differences(const ReducedTable& law,
-                                                                                   const EmulatorOptions& options) const {
+std::map<std::pair<std::string, std::string>, LawDifference> Emulator::differences(
+    const ReducedTable& law, const EmulatorOptions& options) const {
   std::map<std::pair<std::string, std::string>, std::map<std::string, Mean>> groups;
   std::vector<std::string> ignored;
   for (std::size_t i = 0; i < law.rows.size(); ++i) {
@@ -469,8 +482,9 @@ std::map<std::pair<std::string, std::string>, LawDifference> Emulator::differenc
     if (!channel.log_seed_variance) continue;
     check_row(channel, law, i, options, ignored);
     const Point p = channel.point(law.rows[i]);
-    groups[{channel.apparatus, channel.observable}].try_emplace(text_of(p), Mean{p, {}}).first->second.values.push_back(
-        law.rows[i].value);
+    groups[{channel.apparatus, channel.observable}]
+        .try_emplace(text_of(p), Mean{p, {}})
+        .first->second.values.push_back(law.rows[i].value);
   }
   std::map<std::pair<std::string, std::string>, LawDifference> result;
   for (const auto& [name, means] : groups) {

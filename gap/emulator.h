@@ -5,8 +5,8 @@
 // Each observable of an apparatus is smoothed by itself (gaussian_process.h): the baseline's mean over its seeds, the
 // response to each effect, the response to the calibrated parameters, and the logarithm of the seed variance. An
 // observable whose every run is above 0 is smoothed in its logarithm, so that effects multiply; others as they are.
-// Conditions are the numeric ones that vary in the library, as logarithms where all are above 0, in units of their range.
-// Where an effect file has a transform for the observable, the transform is used instead of runs.
+// Conditions are the numeric ones that vary in the library, as logarithms where all are above 0, in units of their
+// range. Where an effect file has a transform for the observable, the transform is used instead of runs.
 //
 // A table row is matched by apparatus, observable, conditions, wall and material (those that library states), not by
 // the name of its test. Errors: BadInput (file and line of the row) if the library lacks the observable, for another
@@ -31,9 +31,10 @@
 namespace vielto::gap {
 
 struct EmulatorOptions {
-  std::set<std::string> ignored;   // conditions that need not agree: moisture, wall, material ...
-  bool extrapolate = false;        // outside the range: flagged instead of refused
-  double runs_per_observation = 1;  // the observed mean is one of so many independent runs; 0: u holds their scatter already
+  std::set<std::string> ignored;  // conditions that need not agree: moisture, wall, material ...
+  bool extrapolate = false;       // outside the range: flagged instead of refused
+  double runs_per_observation =
+      1;  // the observed mean is one of so many independent runs; 0: u holds their scatter already
   bool use_discrepancy = true;
 };
 
@@ -81,8 +82,8 @@ class Emulator {
   const Channel& channel_of(const ReducedTable& table, std::size_t row) const;
   void check_row(const Channel& channel, const ReducedTable& table, std::size_t row, const EmulatorOptions& options,
                  std::vector<std::string>& outside) const;
-  void fill_effect(const Channel& channel, const Effect& effect, const std::vector<Eigen::Index>& rows, TableModel& model,
-                   EffectResponse& response) const;
+  void fill_effect(const Channel& channel, const Effect& effect, const std::vector<Eigen::Index>& rows,
+                   TableModel& model, EffectResponse& response) const;
 
   std::string folder_;
   std::vector<Effect> effects_;

@@ -79,7 +79,9 @@ Interval ModelEvidence::strength(std::size_t effect) const {
     double sum = 0;
     for (std::size_t i = 0; i < cells.size(); ++i) {
       if (sum + cells[i].second >= p || i + 1 == cells.size()) {
-        const double width = cells.size() < 2 ? 0 : i > 0 ? cells[i].first - cells[i - 1].first : cells[1].first - cells[0].first;
+        const double width = cells.size() < 2 ? 0
+                             : i > 0          ? cells[i].first - cells[i - 1].first
+                                              : cells[1].first - cells[0].first;
         const double part = cells[i].second > 0 ? std::clamp((p - sum) / cells[i].second, 0.0, 1.0) : 0.5;
         return cells[i].first + (part - 0.5) * width;
       }
@@ -212,8 +214,8 @@ void set_probabilities(std::vector<ModelEvidence>& models, const TableModel& mod
   if (pairs > 0) prior_sum += settings.prior_pair;
   std::vector<double> logs;
   for (const ModelEvidence& m : models) {
-    const double prior = m.unknown                ? settings.prior_unknown
-                         : m.effects.empty()      ? settings.prior_no_gap
+    const double prior = m.unknown               ? settings.prior_unknown
+                         : m.effects.empty()     ? settings.prior_no_gap
                          : m.effects.size() == 1 ? settings.prior_single / singles
                                                  : settings.prior_pair / pairs;
     logs.push_back(m.log_evidence + std::log(prior / prior_sum));

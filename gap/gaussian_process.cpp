@@ -49,8 +49,7 @@ GaussianProcess::GaussianProcess(Form form, std::vector<Point> points, const Vec
     Eigen::LLT<MatrixXd> factor(k);
     if (factor.info() != Eigen::Success) return;
     const MatrixXd l = factor.matrixL();
-    const double log_likelihood =
-        -0.5 * factor.matrixL().solve(v).squaredNorm() - l.diagonal().array().log().sum();
+    const double log_likelihood = -0.5 * factor.matrixL().solve(v).squaredNorm() - l.diagonal().array().log().sum();
     if (log_likelihood <= best) return;
     best = log_likelihood;
     kernel_ = kernel;
@@ -93,9 +92,7 @@ GaussianProcess::GaussianProcess(Form form, std::vector<Point> points, const Vec
   solve(values);
 }
 
-void GaussianProcess::solve(const VectorXd& values) {
-  weights_ = factor_.solve(VectorXd(values.array() - centre_));
-}
+void GaussianProcess::solve(const VectorXd& values) { weights_ = factor_.solve(VectorXd(values.array() - centre_)); }
 
 GaussianProcess GaussianProcess::with_values(const VectorXd& values) const {
   GaussianProcess other = *this;

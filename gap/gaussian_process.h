@@ -5,9 +5,10 @@
 //   mean = K*' (K + N)^-1 v,   covariance = K** - K*' (K + N)^-1 K*
 // with the noise covariance N of the values v known. A point is (t, c): t the strength over the largest one in the
 // prior range, c the conditions in units of the library's range. Two kernels:
-//   level     V (1 + c.c') + a^2 exp(-|c-c'|^2 / 2 l^2)   after the mean of v is taken out; V = (10 spread)^2: a free plane
-//   response  a^2 t t' exp(-(t-t')^2 / 2 l_t^2) (w + (1-w) exp(-|c-c'|^2 / 2 l^2)):  0 at t = 0, nearly linear for large l_t
-//   parameters  (a^2 z.z' + q^2 (z.z')^2) (w + (1-w) exp(-|c-c'|^2 / 2 l^2)):  linear (and quadratic for q > 0) in z, the
+//   level     V (1 + c.c') + a^2 exp(-|c-c'|^2 / 2 l^2)   after the mean of v is taken out; V = (10 spread)^2: a free
+//   plane response  a^2 t t' exp(-(t-t')^2 / 2 l_t^2) (w + (1-w) exp(-|c-c'|^2 / 2 l^2)):  0 at t = 0, nearly linear
+//   for large l_t parameters  (a^2 z.z' + q^2 (z.z')^2) (w + (1-w) exp(-|c-c'|^2 / 2 l^2)):  linear (and quadratic for
+//   q > 0) in z, the
 //             calibrated parameters' distance from the baseline's in units of their spread
 // a, q, l, l_t, w: the most probable (2.30) of a fixed grid; a redrawn library keeps them.
 #pragma once

@@ -60,18 +60,20 @@ ReducedTable only_rows(ReducedTable table, const std::vector<std::string>& only)
     bool kept = true;
     for (const std::string& text : only) {
       const auto equals = text.find('=');
-      const std::string name = text.substr(0, equals), value = equals == std::string::npos ? "" : text.substr(equals + 1);
+      const std::string name = text.substr(0, equals),
+                        value = equals == std::string::npos ? "" : text.substr(equals + 1);
       const ConditionMember condition = condition_member(name);
       const auto number = finite_number(value);
       if (condition && number)
         kept = kept && row.*condition && std::fabs(*(row.*condition) - *number) <= 1e-6 * std::fabs(*number);
       else if (name == "wall" || name == "material" || name == "apparatus" || name == "observable")
-        kept = kept && value == (name == "wall"       ? row.wall
+        kept = kept && value == (name == "wall"        ? row.wall
                                  : name == "material"  ? row.material
                                  : name == "apparatus" ? row.apparatus
                                                        : row.observable);
       else
-        throw BadInput("--only " + text, 0, "is no condition", "write wall=NAME, material=NAME, apparatus=NAME or speed=NUMBER");
+        throw BadInput("--only " + text, 0, "is no condition",
+                       "write wall=NAME, material=NAME, apparatus=NAME or speed=NUMBER");
     }
     if (kept) keep.push_back(static_cast<int>(i));
   }

@@ -32,8 +32,8 @@ class Inputs {
   nlohmann::ordered_json provenance() const;
 };
 
-// Rows of a table that satisfy every CONDITION=VALUE of `only` (wall=B, apparatus=mixer, speed=1.21 ...), covariance included.
-// Errors: BadInput for a condition that is none, and if no row is left.
+// Rows of a table that satisfy every CONDITION=VALUE of `only` (wall=B, apparatus=mixer, speed=1.21 ...), covariance
+// included. Errors: BadInput for a condition that is none, and if no row is left.
 ReducedTable only_rows(ReducedTable table, const std::vector<std::string>& only);
 
 }  // namespace vielto::gap

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 
-
 namespace vielto::gap {
 namespace {
 
@@ -56,7 +55,8 @@ Isolability isolability(const TableModel& model, const Settings& settings) {
       result.detectability[a] =
           std::max(result.detectability[a], std::sqrt(squared(e.response(s), null + e.emulator(s))));
       for (Index b = 0; b < m; ++b)
-        if (b != a) result.separation(a, b) = std::max(result.separation(a, b), distance(model, e, s, model.effects[b]));
+        if (b != a)
+          result.separation(a, b) = std::max(result.separation(a, b), distance(model, e, s, model.effects[b]));
     }
   }
   std::vector<Index> group(m);
@@ -107,10 +107,12 @@ std::string isolability_svg(const Isolability& i) {
       "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0} {1}\" width=\"{0}\" height=\"{1}\" "
       "font-family=\"sans-serif\" font-size=\"12\">\n<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n"
       "<text x=\"10\" y=\"20\">separation of the row's effect from the column's, in standard deviations;</text>\n"
-      "<text x=\"10\" y=\"36\">diagonal: from no effect. Grey: not told apart ({2:g}) or not detectable ({3:g}).</text>\n",
+      "<text x=\"10\" y=\"36\">diagonal: from no effect. Grey: not told apart ({2:g}) or not detectable "
+      "({3:g}).</text>\n",
       left + cell * m + 20, top + cell * m + 20, i.group_distance, i.detectable_distance);
   for (int a = 0; a < m; ++a) {
-    svg += fmt::format("<text x=\"{}\" y=\"{}\" text-anchor=\"end\">{}</text>\n", left - 6, top + cell * a + 25, i.effects[a]);
+    svg += fmt::format("<text x=\"{}\" y=\"{}\" text-anchor=\"end\">{}</text>\n", left - 6, top + cell * a + 25,
+                       i.effects[a]);
     svg += fmt::format("<text transform=\"translate({},{}) rotate(-60)\">{}</text>\n", left + cell * a + 22, top - 6,
                        i.effects[a]);
     for (int b = 0; b < m; ++b) {

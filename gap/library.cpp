@@ -72,7 +72,8 @@ void read_design(Library& library, const std::vector<Effect>& effects) {
         if (run.seed < 1 || run.seed != seed)
           throw BadInput(path, line, "seed", fmt::format("'{}' is no seed", f[3]), "write 1, 2, 3 ...");
         if (run.run_hash.size() != 64 || run.run_hash.find_first_not_of("0123456789abcdef") != std::string::npos)
-          throw BadInput(path, line, "run_hash", fmt::format("'{}' is no SHA-256", f[4]), "write 64 hexadecimal digits");
+          throw BadInput(path, line, "run_hash", fmt::format("'{}' is no SHA-256", f[4]),
+                         "write 64 hexadecimal digits");
         if (const auto [at, is_new] = tests.emplace(run.test, line); !is_new)
           throw BadInput(path, line, "test", fmt::format("'{}' is the run of line {}", f[0], at->second),
                          "name every run as a test of its own");
@@ -109,9 +110,10 @@ void read_design(Library& library, const std::vector<Effect>& effects) {
   for (const Run& run : library.runs)
     if (run.effect == "none") ++counts[key(run)];
   if (counts.empty()) throw BadInput(path, 0, "holds no run of the baseline", "add runs of effect none");
-  const auto most = std::max_element(counts.begin(), counts.end(),
-                                     [](const auto& a, const auto& b) { return a.second < b.second; });
-  library.nominal = Eigen::Map<const Eigen::VectorXd>(most->first.data(), static_cast<Eigen::Index>(most->first.size()));
+  const auto most =
+      std::max_element(counts.begin(), counts.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
+  library.nominal =
+      Eigen::Map<const Eigen::VectorXd>(most->first.data(), static_cast<Eigen::Index>(most->first.size()));
   for (Run& run : library.runs) {
     run.baseline = run.effect == "none" && key(run) == most->first;
     if (run.effect != "none" && key(run) != most->first)
@@ -159,7 +161,8 @@ void check_seeds(const Library& library) {
   std::map<std::string, std::pair<int, const LibraryValue*>> counts;
   for (const LibraryValue& value : library.values) {
     if (value.row.apparatus == "bench") continue;
-    const std::string where = fmt::format("{} {} at {}", value.row.apparatus, value.row.observable, conditions_text(value.row));
+    const std::string where =
+        fmt::format("{} {} at {}", value.row.apparatus, value.row.observable, conditions_text(value.row));
     auto& entry = counts.try_emplace(where, 0, &value).first->second;
     entry.first += library.runs[value.run].baseline;
   }
@@ -205,7 +208,8 @@ void check_fresh(const Library& library) {
   read_columns(path, {"file", "sha256"}, [&](int line, const std::vector<std::string_view>& f) {
     const std::string file = (fs::path(library.folder) / std::string(f[0])).string();
     if (!fs::is_regular_file(file))
-      throw BadInput(path, line, "file", fmt::format("'{}' is not there", f[0]), "state paths from the library's folder");
+      throw BadInput(path, line, "file", fmt::format("'{}' is not there", f[0]),
+                     "state paths from the library's folder");
     if (sha256_of_file(file) != f[1])
       throw BadInput(path, line, "sha256", fmt::format("the library is stale: '{}' has changed since its runs", f[0]),
                      "run the campaign again, or bring the file back");

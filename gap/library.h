@@ -2,18 +2,19 @@
 // Purpose: the response library, simulated observations over a design of tests, effects, strengths and seeds.
 //
 // A folder with
-//   design.csv        test,effect,strength,seed,run_hash,PARAMETER...   one row a run. `test`: its name in the tables, one
-//                     for each run; `effect` none and strength 0: the baseline; PARAMETER: the calibrated parameters of the
-//                     run. The baseline's own parameters are those of most of its runs; baseline runs at other values show
-//                     what recalibration can do. Runs with an effect are made at the baseline's own.
-//   *.csv             observation tables, their rows under the tests of the design (any number of files; u and role are not used)
-//   posterior.csv     weight,PARAMETER...   the calibrated family (optional)
-//   discrepancy.csv   what other contact laws do differently (discrepancy.h; optional)
-//   inputs.csv        file,sha256   what the runs were made from, paths from the folder (optional): if one has changed, the
+//   design.csv        test,effect,strength,seed,run_hash,PARAMETER...   one row a run. `test`: its name in the tables,
+//   one
+//                     for each run; `effect` none and strength 0: the baseline; PARAMETER: the calibrated parameters of
+//                     the run. The baseline's own parameters are those of most of its runs; baseline runs at other
+//                     values show what recalibration can do. Runs with an effect are made at the baseline's own.
+//   *.csv             observation tables, their rows under the tests of the design (any number of files; u and role are
+//   not used) posterior.csv     weight,PARAMETER...   the calibrated family (optional) discrepancy.csv   what other
+//   contact laws do differently (discrepancy.h; optional) inputs.csv        file,sha256   what the runs were made from,
+//   paths from the folder (optional): if one has changed, the
 //                     library is stale
 //
-// Errors: BadInput with file and line. At least 6 seeds of the baseline under every condition (but for `bench`, which is
-// not simulated); no run twice (run_hash); strengths inside the effect's prior range; nothing stale.
+// Errors: BadInput with file and line. At least 6 seeds of the baseline under every condition (but for `bench`, which
+// is not simulated); no run twice (run_hash); strengths inside the effect's prior range; nothing stale.
 #pragma once
 
 #include <Eigen/Dense>
@@ -42,7 +43,7 @@ struct LibraryValue {
 };
 
 struct Family {
-  Eigen::VectorXd weights;   // m, sum 1
+  Eigen::VectorXd weights;     // m, sum 1
   Eigen::MatrixXd parameters;  // m x p
 };
 
@@ -52,7 +53,7 @@ struct Library {
   Eigen::VectorXd nominal;  // p, the baseline's own parameters
   std::vector<Run> runs;
   std::vector<LibraryValue> values;
-  Family family;  // 0 members: not given
+  Family family;                   // 0 members: not given
   std::vector<std::string> files;  // everything read, for provenance
 
   static Library read(const std::string& folder, const std::vector<Effect>& effects);

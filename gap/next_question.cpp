@@ -35,8 +35,9 @@ std::vector<NextTest> next_tests(const Inputs& inputs, const ReducedTable& fit, 
   std::vector<const ModelEvidence*> open;
   for (const ModelEvidence& m : diagnosis.models) {
     if (m.effects.empty() || open.size() == 4) continue;
-    if (diagnosis.verdict == "ambiguous" && (m.effects.size() != 1 || std::find(diagnosis.group.begin(), diagnosis.group.end(),
-                                                                                m.effects[0]) == diagnosis.group.end()))
+    if (diagnosis.verdict == "ambiguous" &&
+        (m.effects.size() != 1 ||
+         std::find(diagnosis.group.begin(), diagnosis.group.end(), m.effects[0]) == diagnosis.group.end()))
       continue;
     open.push_back(&m);
   }
@@ -67,7 +68,8 @@ std::vector<NextTest> next_tests(const Inputs& inputs, const ReducedTable& fit, 
       notes.push_back(fmt::format("next test {} is left out: {}", test.name, error.what()));
     }
   }
-  std::sort(tests.begin(), tests.end(), [](const NextTest& a, const NextTest& b) { return a.gain_per_hour > b.gain_per_hour; });
+  std::sort(tests.begin(), tests.end(),
+            [](const NextTest& a, const NextTest& b) { return a.gain_per_hour > b.gain_per_hour; });
   return tests;
 }
 

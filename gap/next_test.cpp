@@ -56,14 +56,16 @@ std::vector<CandidateTest> read_candidate_tests(const std::string& path) {
   for (const toml::node& node : *list) {
     if (!node.is_table()) file.refuse("test", "is no list of tests", "write [[test]]");
     const TomlTable t(path, *node.as_table());
-    t.only({"name", "apparatus", "how", "hours", "row", "speed", "fill", "moisture", "normal_stress", "shear_velocity", "tilt"});
+    t.only({"name", "apparatus", "how", "hours", "row", "speed", "fill", "moisture", "normal_stress", "shear_velocity",
+            "tilt"});
     CandidateTest test;
     test.name = t.text("name");
     test.apparatus = t.text("apparatus");
     test.how = t.text("how");
     test.hours = t.number("hours", 0.01, 1e5);
     const toml::array* rows = t.raw()["row"].as_array();
-    if (!rows || rows->empty()) t.refuse("row", "is no list", "write row = [{observable = \"power\", relative_u = 0.02}]");
+    if (!rows || rows->empty())
+      t.refuse("row", "is no list", "write row = [{observable = \"power\", relative_u = 0.02}]");
     for (const toml::node& entry : *rows) {
       if (!entry.is_table()) t.refuse("row", "is no list of tables", "write row = [{observable = ..., u = ...}]");
       const TomlTable r(path, *entry.as_table());
@@ -74,7 +76,8 @@ std::vector<CandidateTest> read_candidate_tests(const std::string& path) {
       row.apparatus = test.apparatus;
       row.observable = r.text("observable");
       const auto unit = observable_unit(row.apparatus, row.observable);
-      if (!unit) r.refuse("observable", fmt::format("'{}' is none of {}", row.observable, row.apparatus), "see doc/formats.md");
+      if (!unit)
+        r.refuse("observable", fmt::format("'{}' is none of {}", row.observable, row.apparatus), "see doc/formats.md");
       row.unit = *unit;
       if (r.has("u") == r.has("relative_u")) r.refuse("u", "or relative_u must be there, one of them", "state one");
       test.relative_u.push_back(r.has("relative_u"));

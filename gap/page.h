@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The page a person reads: the verdict in one sentence, the map of the gap, the ranking, before and after, the next test.
-// One HTML file that needs nothing else. Made from diagnosis.json, so that page and file cannot disagree.
+// The page a person reads: the verdict in one sentence, the map of the gap, the ranking, before and after, the next
+// test. One HTML file that needs nothing else. Made from diagnosis.json, so that page and file cannot disagree.
 #pragma once
 
 #include <nlohmann/json.hpp>

@@ -40,8 +40,7 @@ std::vector<Region> regions_of(const std::vector<Observation>& rows) {
     auto& regions = found[{rows[i].apparatus, rows[i].observable}];
     const Index index = static_cast<Index>(i);
     regions["all"].push_back(index);
-    if (rows[i].speed && speeds.count(*rows[i].speed))
-      regions[speed_names[speeds.at(*rows[i].speed)]].push_back(index);
+    if (rows[i].speed && speeds.count(*rows[i].speed)) regions[speed_names[speeds.at(*rows[i].speed)]].push_back(index);
     if (rows[i].fill && fills.count(*rows[i].fill)) regions[fill_names[fills.at(*rows[i].fill)]].push_back(index);
   }
   std::vector<Region> result;
@@ -101,9 +100,8 @@ Location locate(const TableModel& model) {
     for (Index b = 0; b < a; ++b) location.dependent = location.dependent || std::fabs(correlation(a, b)) > 0.1;
   const std::vector<double> q = q_values(p, location.dependent);
   for (std::size_t r = 0; r < q.size(); ++r) location.regions[r].q = q[r];
-  std::sort(location.regions.begin(), location.regions.end(), [](const Region& a, const Region& b) {
-    return a.q != b.q ? a.q < b.q : std::fabs(a.z) > std::fabs(b.z);
-  });
+  std::sort(location.regions.begin(), location.regions.end(),
+            [](const Region& a, const Region& b) { return a.q != b.q ? a.q < b.q : std::fabs(a.z) > std::fabs(b.z); });
   return location;
 }
 

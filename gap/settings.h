@@ -4,9 +4,10 @@
 // Errors: BadInput with file and line for a missing or unknown key, a value of another type or out of its range.
 #pragma once
 
+#include <toml++/toml.h>
+
 #include <initializer_list>
 #include <string>
-#include <toml++/toml.h>
 
 namespace vielto::gap {
 

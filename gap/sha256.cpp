@@ -2,7 +2,6 @@
 #include "sha256.h"
 
 #include <fmt/format.h>
-
 #include <stdlib.h>
 #include <unistd.h>
 
@@ -24,7 +23,8 @@ std::string sha256_of_file(const std::string& path) {
   const std::unique_ptr<FILE, int (*)(FILE*)> pipe(popen(("sha256sum < '" + quoted + "' 2>/dev/null").c_str(), "r"),
                                                    pclose);
   std::array<char, 128> buffer = {};
-  const std::string line = pipe && fgets(buffer.data(), static_cast<int>(buffer.size()), pipe.get()) ? buffer.data() : "";
+  const std::string line =
+      pipe && fgets(buffer.data(), static_cast<int>(buffer.size()), pipe.get()) ? buffer.data() : "";
   const std::string hash = line.substr(0, line.find(' '));
   if (hash.size() != 64) throw std::runtime_error(path + ": its SHA-256 cannot be taken; check the file and sha256sum");
   return hash;

@@ -11,8 +11,7 @@ namespace {
 std::pair<Eigen::Index, double> between(const Eigen::VectorXd& strengths, double s) {
   const double* begin = strengths.data();
   const double* end = begin + strengths.size();
-  const Eigen::Index above =
-      std::clamp<Eigen::Index>(std::upper_bound(begin, end, s) - begin, 1, strengths.size() - 1);
+  const Eigen::Index above = std::clamp<Eigen::Index>(std::upper_bound(begin, end, s) - begin, 1, strengths.size() - 1);
   const double low = strengths[above - 1], high = strengths[above];
   return {above - 1, std::clamp((s - low) / (high - low), 0.0, 1.0)};
 }

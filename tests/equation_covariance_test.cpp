@@ -35,7 +35,8 @@ TEST(EquationCovariance, IsACorrelationWithAlikeNeighbours) {
       }
 }
 
-// On a 2 x 2 grid three coefficients leave one direction, (1, -1, -1, 1)/2: H + k M K M with trace(M) = 1 is the unit matrix.
+// On a 2 x 2 grid three coefficients leave one direction, (1, -1, -1, 1)/2: H + k M K M with trace(M) = 1 is the unit
+// matrix.
 TEST(EquationCovariance, TwoByTwoByHand) {
   VectorXd l(4), n(4);
   l << 0.1, 0.1, 0.2, 0.2;
@@ -44,8 +45,10 @@ TEST(EquationCovariance, TwoByTwoByHand) {
 }
 
 TEST(EquationCovariance, RefusesPointsThatFixNoEquation) {
-  EXPECT_THROW(vielto::equation_error_correlation(VectorXd::Constant(5, 0.1), VectorXd::LinSpaced(5, 0.5, 1.5)), std::invalid_argument);
-  EXPECT_THROW(vielto::equation_error_correlation(VectorXd::LinSpaced(3, 0.1, 0.2), VectorXd::LinSpaced(3, 0.5, 1.5)), std::invalid_argument);
+  EXPECT_THROW(vielto::equation_error_correlation(VectorXd::Constant(5, 0.1), VectorXd::LinSpaced(5, 0.5, 1.5)),
+               std::invalid_argument);
+  EXPECT_THROW(vielto::equation_error_correlation(VectorXd::LinSpaced(3, 0.1, 0.2), VectorXd::LinSpaced(3, 0.5, 1.5)),
+               std::invalid_argument);
 }
 
 }  // namespace

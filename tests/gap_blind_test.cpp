@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The blind check end to end on toy laws: seals, answers that cannot have seen a truth, marks, and what chance scores.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -8,8 +9,6 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
-
-#include <fmt/format.h>
 
 #include "score.h"
 
@@ -39,18 +38,20 @@ class GapBlind : public testing::Test {
  protected:
   static void SetUpTestSuite() {
     folder_ = fs::temp_directory_path() / fmt::format("gap_blind_{}", getpid());
-    std::ofstream(folder_.string() + ".toml")
-        << "no_effect_draws = 3\nweak = 2.0\nmiddle = 4.0\nstrong = 8.0\ntruths_per_effect = 1\ndraws = 1\nremoved = 5\n"
-           "sham = 2\npairs = 2\nfrom_prior = 6\nreachable = 0.7\n";
-    status_ = run(fmt::format("'{}/tests/gap_toy_blind.sh' '{}' 4 '{}.toml' 200", VIELTO_SOURCE_DIR, folder_.string(), folder_.string()));
+    std::ofstream(folder_.string() + ".toml") << "no_effect_draws = 3\nweak = 2.0\nmiddle = 4.0\nstrong = "
+                                                 "8.0\ntruths_per_effect = 1\ndraws = 1\nremoved = 5\n"
+                                                 "sham = 2\npairs = 2\nfrom_prior = 6\nreachable = 0.7\n";
+    status_ = run(fmt::format("'{}/tests/gap_toy_blind.sh' '{}' 4 '{}.toml' 200", VIELTO_SOURCE_DIR, folder_.string(),
+                              folder_.string()));
   }
   static void TearDownTestSuite() {
     fs::remove_all(folder_);
     fs::remove(folder_.string() + ".toml");
   }
   static int run(const std::string& command) {
-    const int status = std::system(("export PATH=" VIELTO_BIN_DIR ":" VIELTO_BIN_DIR "/../tests:$PATH; (" + command + ") > " +
-                                    folder_.string() + ".out 2>&1").c_str());
+    const int status = std::system(("export PATH=" VIELTO_BIN_DIR ":" VIELTO_BIN_DIR "/../tests:$PATH; (" + command +
+                                    ") > " + folder_.string() + ".out 2>&1")
+                                       .c_str());
     output_ = content(folder_.string() + ".out");
     fs::remove(folder_.string() + ".out");
     return WEXITSTATUS(status);
@@ -69,8 +70,8 @@ std::string GapBlind::output_;
 TEST_F(GapBlind, RunsFromSealToScoreWithTheTruthsOutOfReach) {
   ASSERT_EQ(status_, 0) << output_;
   const json s = score();
-  for (const char* key : {"right", "in_group", "wrong_name", "false_alarm", "unknown_found", "removed_named", "coverage90", "closure",
-                          "placebo", "brier", "where_f1"}) {
+  for (const char* key : {"right", "in_group", "wrong_name", "false_alarm", "unknown_found", "removed_named",
+                          "coverage90", "closure", "placebo", "brier", "where_f1"}) {
     EXPECT_TRUE(s.contains(key)) << key;
     EXPECT_TRUE(s.contains(std::string(key) + "_low95")) << key;
     EXPECT_TRUE(s.contains(std::string(key) + "_high95")) << key;
@@ -86,8 +87,12 @@ TEST_F(GapBlind, TheAnswerIsTheSameWithAndWithoutTruthsInReach) {
   ASSERT_TRUE(fs::exists(folder_ / "blind/truth/0001.json"));  // back in place
   fs::copy(folder_ / "answers/0001", folder_ / "apart", fs::copy_options::recursive);
   fs::remove_all(folder_ / "answers/0001");
-  ASSERT_EQ(run(fmt::format("cd '{}' && '{}/gap/blind/diagnose-all' blind/cases answers sealed/isolability.json gap/library --draws 200",
-                            folder_.string(), VIELTO_SOURCE_DIR)), 0) << output_;
+  ASSERT_EQ(
+      run(fmt::format(
+          "cd '{}' && '{}/gap/blind/diagnose-all' blind/cases answers sealed/isolability.json gap/library --draws 200",
+          folder_.string(), VIELTO_SOURCE_DIR)),
+      0)
+      << output_;
   EXPECT_EQ(content(folder_ / "answers/0001/diagnosis.json"), content(folder_ / "apart/diagnosis.json"));
 }
 
@@ -104,7 +109,10 @@ TEST_F(GapBlind, ATamperedTruthIsRefused) {
   ASSERT_EQ(status_, 0) << output_;
   const std::string truth = content(folder_ / "blind/truth/0002.json");
   std::ofstream(folder_ / "blind/truth/0002.json") << truth << " ";
-  EXPECT_EQ(run(fmt::format("cd '{}' && gap-score blind --answers answers --sealed sealed/isolability.json --out again.json", folder_.string())), 2);
+  EXPECT_EQ(
+      run(fmt::format("cd '{}' && gap-score blind --answers answers --sealed sealed/isolability.json --out again.json",
+                      folder_.string())),
+      2);
   EXPECT_NE(output_.find("truth/0002.json is not what its seal says"), std::string::npos) << output_;
   EXPECT_FALSE(fs::exists(folder_ / "again.json"));
   std::ofstream(folder_ / "blind/truth/0002.json") << truth;

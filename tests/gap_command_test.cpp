@@ -141,26 +141,44 @@ TEST_F(GapCommand, WithoutCheckRowsItDiagnosesAndSaysThatTheShrinkCannotBeProved
 }
 
 TEST_F(GapCommand, RefusesTablesWithOneClearLine) {
-  expect_refusal_of_rows([](auto& r) { for (auto& row : r) row.role = "check"; }, "t.csv: holds no row of role fit");
-  expect_refusal_of_rows([](auto& r) { for (auto& row : r) row.material = "gravel"; },
-                         "t.csv, line 2, column material: the library has no runs for 'gravel'");
-  expect_refusal_of_rows([](auto& r) {
-    Observation d = r.back();
-    d.test = "drum", d.apparatus = "drum";
-    r.push_back(d);
-  }, "column observable: the library library lacks drum angle");
-  expect_refusal_of_rows([](auto& r) {
-    Observation d = r.back();
-    d.observable = "bulk_density", d.unit = "kg/m3";
-    r.push_back(d);
-  }, "lacks repose bulk_density");
+  expect_refusal_of_rows(
+      [](auto& r) {
+        for (auto& row : r) row.role = "check";
+      },
+      "t.csv: holds no row of role fit");
+  expect_refusal_of_rows(
+      [](auto& r) {
+        for (auto& row : r) row.material = "gravel";
+      },
+      "t.csv, line 2, column material: the library has no runs for 'gravel'");
+  expect_refusal_of_rows(
+      [](auto& r) {
+        Observation d = r.back();
+        d.test = "drum", d.apparatus = "drum";
+        r.push_back(d);
+      },
+      "column observable: the library library lacks drum angle");
+  expect_refusal_of_rows(
+      [](auto& r) {
+        Observation d = r.back();
+        d.observable = "bulk_density", d.unit = "kg/m3";
+        r.push_back(d);
+      },
+      "lacks repose bulk_density");
   expect_refusal_of_rows([](auto& r) { r[0].speed = r[1].speed = 3; },
                          "t.csv, line 2, column speed: 3 is outside the library's 0.45 to 1.7");
-  expect_refusal_of_rows([](auto& r) { r[0].fill.reset(); r[1].fill.reset(); }, "column fill: is empty, but the library depends on it");
-  expect_refusal_of_rows([](auto& r) {
-    for (auto& row : r)
-      if (row.apparatus == "shearbox") row.normal_stress = 5000;
-  }, "column normal_stress: 5000 is outside the library, which has 19610 only");
+  expect_refusal_of_rows(
+      [](auto& r) {
+        r[0].fill.reset();
+        r[1].fill.reset();
+      },
+      "column fill: is empty, but the library depends on it");
+  expect_refusal_of_rows(
+      [](auto& r) {
+        for (auto& row : r)
+          if (row.apparatus == "shearbox") row.normal_stress = 5000;
+      },
+      "column normal_stress: 5000 is outside the library, which has 19610 only");
   write(rows_);
   replace_in(folder_ / "t.csv", ",fit,mixer,power,", ",fit,mixer,power,nan");
   expect_refusal("column value: 'nan");
@@ -184,7 +202,8 @@ TEST_F(GapCommand, ExtrapolationIsFlaggedWhenItIsAllowed) {
   rows_[0].speed = rows_[1].speed = 1.8;
   write(rows_);
   ASSERT_EQ(diagnose("--extrapolate"), 0) << err_;
-  EXPECT_NE(out_.find("extrapolated: line 2: speed 1.8 is outside the library's 0.45 to 1.7"), std::string::npos) << out_;
+  EXPECT_NE(out_.find("extrapolated: line 2: speed 1.8 is outside the library's 0.45 to 1.7"), std::string::npos)
+      << out_;
 }
 
 TEST_F(GapCommand, RefusesLibrariesWithOneClearLine) {
@@ -212,7 +231,8 @@ TEST_F(GapCommand, RefusesLibrariesWithOneClearLine) {
   replace_in(folder_ / "library/posterior.csv", "rollingResistance", "rollingFriction");
   expect_refusal("posterior.csv, line 1: names the parameters frictionAngle, rollingFriction");
   fs::remove(folder_ / "library/posterior.csv");
-  std::ofstream(folder_ / "library/discrepancy.csv") << "apparatus,observable,sd,common,length,laws\nmixer,power,0.03,0.8,1,3\n";
+  std::ofstream(folder_ / "library/discrepancy.csv")
+      << "apparatus,observable,sd,common,length,laws\nmixer,power,0.03,0.8,1,3\n";
   expect_refusal("discrepancy.csv: lacks");
   fs::remove_all(folder_ / "library");
   toy::write_library(folder_ / "library", toy::effects_with_runs(), 0, 7, true, 5);
@@ -290,8 +310,8 @@ TEST_F(GapCommand, DiscrepancyFromDevelopmentLaws) {
   ASSERT_EQ(gap("discrepancy " + tables + "--library library --out found.csv"), 0) << err_;
   const std::string found = content(folder_ / "found.csv");
   EXPECT_EQ(found.rfind("apparatus,observable,sd,common,length,laws\n", 0), 0u);
-  // The toy's laws differ in power by 3 % times n^0.4 times (-1, 0.5, 1.5): root mean square 3.3 %. Three laws give the sd to
-  // a factor of about two, and upwards.
+  // The toy's laws differ in power by 3 % times n^0.4 times (-1, 0.5, 1.5): root mean square 3.3 %. Three laws give the
+  // sd to a factor of about two, and upwards.
   const auto at = found.find("mixer,power,");
   ASSERT_NE(at, std::string::npos) << found;
   const double sd = std::stod(found.substr(at + 12));
@@ -307,7 +327,8 @@ TEST_F(GapCommand, NextTestRanksByGainPerHour) {
 
 TEST_F(GapCommand, ConfirmPrintsTheCommandsOfEveryCheckTest) {
   // The toy has no rigs: those of the repository lend their scripts. Mixer tests only.
-  rows_.erase(std::remove_if(rows_.begin(), rows_.end(), [](const Observation& r) { return r.apparatus != "mixer" && r.role == "check"; }),
+  rows_.erase(std::remove_if(rows_.begin(), rows_.end(),
+                             [](const Observation& r) { return r.apparatus != "mixer" && r.role == "check"; }),
               rows_.end());
   write(rows_);
   ASSERT_EQ(gap("confirm t.csv --library library --draws 100 --out answer --root " VIELTO_SOURCE_DIR), 0) << err_;

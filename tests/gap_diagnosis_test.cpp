@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The diagnosis on toy rigs with a known truth: the right name, the right strength, few false alarms.
-#include <gtest/gtest.h>
-
 #include <fmt/format.h>
+#include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -66,10 +65,10 @@ fs::path GapDiagnosis::folder_;
 std::unique_ptr<Inputs> GapDiagnosis::inputs_;
 Threshold GapDiagnosis::threshold_;
 
-
 // A law that differs as the discrepancy file says, an effect at two thirds of its range: named, with its strength.
 TEST_F(GapDiagnosis, NamesEachEffectOfTheToy) {
-  const std::map<std::string, double> truths = {{"cohesion", 40000}, {"shape", 0.27}, {"wall_friction", 8}, {"dissipation", 0.22}};
+  const std::map<std::string, double> truths = {
+      {"cohesion", 40000}, {"shape", 0.27}, {"wall_friction", 8}, {"dissipation", 0.22}};
   std::mt19937_64 random(5);
   int right = 0, covered = 0, n = 0;
   for (const auto& [name, strength] : truths)
@@ -88,12 +87,14 @@ TEST_F(GapDiagnosis, NamesEachEffectOfTheToy) {
         covered += i.low90 <= strength && strength <= i.high90;
       }
     }
-  // 20 strong tables: 85 % is the protocol's mark; an interval of 90 % misses more than 5 of 20 once in a hundred times.
+  // 20 strong tables: 85 % is the protocol's mark; an interval of 90 % misses more than 5 of 20 once in a hundred
+  // times.
   EXPECT_GE(right, 17);
   EXPECT_GE(covered, 15);
 }
 
-// Two effects whose responses are alike (the gain of the sensor, losses of the drive) are not told apart, and it says so.
+// Two effects whose responses are alike (the gain of the sensor, losses of the drive) are not told apart, and it says
+// so.
 TEST_F(GapDiagnosis, SaysAmbiguousWhereEffectsAreAlike) {
   std::mt19937_64 random(8);
   int named_wrong = 0, contains = 0;
@@ -137,7 +138,8 @@ TEST_F(GapDiagnosis, LeavingTheDiscrepancyOutRaisesFalseAlarms) {
     return alarms / 300.0;
   };
   const double with = rate(true), without = rate(false);
-  // At 1 % more than 10 of 300 alarms come once in 2000 times; the threshold itself, from 1000 draws, is good to a factor of 2.
+  // At 1 % more than 10 of 300 alarms come once in 2000 times; the threshold itself, from 1000 draws, is good to a
+  // factor of 2.
   EXPECT_LE(with, 0.05);
   EXPECT_GT(without, with + 0.05);
   RecordProperty("false_alarms_with_discrepancy", fmt::format("{:.3f}", with));
@@ -145,8 +147,8 @@ TEST_F(GapDiagnosis, LeavingTheDiscrepancyOutRaisesFalseAlarms) {
   fmt::print("false alarms: {:.3f} with the law discrepancy, {:.3f} without\n", with, without);
 }
 
-// Strengths drawn from the prior and responses that differ from the library's as the shape error says: the 90 % interval
-// holds the truth in 90 % of the tables.
+// Strengths drawn from the prior and responses that differ from the library's as the shape error says: the 90 %
+// interval holds the truth in 90 % of the tables.
 TEST_F(GapDiagnosis, IntervalsCoverStrengthsDrawnFromThePrior) {
   std::mt19937_64 random(31);
   std::normal_distribution<double> normal;

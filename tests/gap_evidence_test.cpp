@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The likelihood against closed forms: marginal likelihood of the linear Gaussian case, probabilities, regions, smoothing.
-#include "evidence.h"
-
+// The likelihood against closed forms: marginal likelihood of the linear Gaussian case, probabilities, regions,
+// smoothing.
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
 
 #include "discrepancy.h"
+#include "evidence.h"
 #include "gaussian_process.h"
 #include "regions.h"
 
@@ -61,9 +61,10 @@ TEST(GapEvidence, OneEffectAgainstTheClosedForm) {
     const VectorXd d = y - m.baseline;
     const double v = a.dot(c.inverse() * a), best = a.dot(c.inverse() * d) / v;
     const VectorXd rest = d - best * a;
-    const double exact = -0.5 * rest.dot(c.inverse() * rest) - 0.5 * std::log((2 * M_PI * c).determinant()) +
-                         0.5 * std::log(2 * M_PI / v) +
-                         std::log((standard_normal((3 - best) * std::sqrt(v)) - standard_normal(-best * std::sqrt(v))) / 3);
+    const double exact =
+        -0.5 * rest.dot(c.inverse() * rest) - 0.5 * std::log((2 * M_PI * c).determinant()) +
+        0.5 * std::log(2 * M_PI / v) +
+        std::log((standard_normal((3 - best) * std::sqrt(v)) - standard_normal(-best * std::sqrt(v))) / 3);
     // The midpoint rule with 64 cells over a bell cut off at 0: its error is below a thousandth.
     EXPECT_NEAR(effect_evidence(m, {&m.effects[0]}).log_evidence, exact, 1e-3) << s;
   }
@@ -77,7 +78,8 @@ TEST(GapEvidence, TwoEffectsAgainstTheClosedForm) {
   y << 11.2, 10.4, 10.9, 10.6, 11.8;
   const TableModel m = linear_model(y, {a.col(0), a.col(1)}, -3, 3);
   const MatrixXd c = m.null_covariance(), information = a.transpose() * c.inverse() * a;
-  const VectorXd d = y - m.baseline, best = information.inverse() * a.transpose() * c.inverse() * d, rest = d - a * best;
+  const VectorXd d = y - m.baseline, best = information.inverse() * a.transpose() * c.inverse() * d,
+                 rest = d - a * best;
   const double exact = -0.5 * rest.dot(c.inverse() * rest) - 0.5 * std::log((2 * M_PI * c).determinant()) +
                        std::log(2 * M_PI / std::sqrt(information.determinant())) - std::log(36.0);
   const ModelEvidence pair = effect_evidence(m, {&m.effects[0], &m.effects[1]});

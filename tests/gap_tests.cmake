@@ -1,5 +1,6 @@
 # The diagnosis of the gap, on formulas instead of simulations (gap_toy.h).
 vielto_test(equation_covariance_test equation_covariance_test.cpp LIBS vielto_regression)
+vielto_test(gap_effects_test gap_effects_test.cpp LIBS vielto_gap)
 vielto_test(gap_evidence_test gap_evidence_test.cpp LIBS vielto_gap)
 vielto_test(gap_diagnosis_test gap_diagnosis_test.cpp LIBS vielto_gap)
 vielto_test(gap_command_test gap_command_test.cpp LIBS vielto_post nlohmann_json::nlohmann_json)

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A toy rig for the tests of the diagnosis: formulas instead of simulations, with seed noise. It stands for no machine. The
-// library, the truths with another law, and tables with a known effect all come from `toy_value`.
+// A toy rig for the tests of the diagnosis: formulas instead of simulations, with seed noise. It stands for no machine.
+// The library, the truths with another law, and tables with a known effect all come from `toy_value`.
 #pragma once
+
+#include <fmt/format.h>
 
 #include <cmath>
 #include <filesystem>
@@ -11,8 +13,6 @@
 #include <string>
 #include <vector>
 
-#include <fmt/format.h>
-
 #include "observation_table.h"
 
 namespace toy {
@@ -20,9 +20,9 @@ namespace toy {
 namespace fs = std::filesystem;
 
 struct State {
-  double friction = 25, rolling = 0.1;     // calibrated parameters
-  std::map<std::string, double> effects;   // name -> strength
-  double law = 0;                          // another law: what it does differently, of order 1
+  double friction = 25, rolling = 0.1;    // calibrated parameters
+  std::map<std::string, double> effects;  // name -> strength
+  double law = 0;                         // another law: what it does differently, of order 1
 };
 
 inline double effect(const State& s, const char* name) {
@@ -49,7 +49,8 @@ inline double value(const vielto::Observation& row, const State& s) {
   const double wall = effect(s, "wall_friction") / 12, dissipation = effect(s, "dissipation") / 0.33;
   if (row.observable == "power") {
     double p = 30 * std::pow(n, 1.1) * (l / 0.15) * std::pow(f, 0.5) * std::pow(r, 0.1);
-    p *= 1 + 0.9 * cohesion * std::pow(n, -0.8) + 0.35 * shape * (l / 0.15) + 0.5 * wall + 0.25 * dissipation * (n * n - 0.6);
+    p *= 1 + 0.9 * cohesion * std::pow(n, -0.8) + 0.35 * shape * (l / 0.15) + 0.5 * wall +
+         0.25 * dissipation * (n * n - 0.6);
     p *= 1 + 0.03 * s.law * std::pow(n, 0.4);
     p *= 1 + effect(s, "sensor_gain");
     return p;
@@ -59,7 +60,8 @@ inline double value(const vielto::Observation& row, const State& s) {
            std::pow(f, -0.2) * (1 - 0.04 * s.law);
   if (row.observable == "shear_stress_steady")
     return *row.normal_stress * 0.45 * std::pow(f, 0.8) * std::pow(r, 0.1) *
-           (1 + 0.2 * cohesion + 0.6 * shape + 0.02 * std::log(*row.shear_velocity / 0.001) * dissipation) * (1 + 0.01 * s.law);
+           (1 + 0.2 * cohesion + 0.6 * shape + 0.02 * std::log(*row.shear_velocity / 0.001) * dissipation) *
+           (1 + 0.01 * s.law);
   return 26 * std::pow(f, 0.4) * std::pow(r, 0.25) * (1 + 0.5 * cohesion + 0.45 * shape) * (1 - 0.01 * s.law);
 }
 
@@ -107,7 +109,8 @@ inline double seed_noise(const vielto::Observation& row) {
   return 0;
 }
 
-inline const std::vector<double> kSpeeds = {0.45, 0.8, 1.2, 1.7}, kFills = {0.08, 0.15, 0.28}, kVelocities = {0.0001, 0.03};
+inline const std::vector<double> kSpeeds = {0.45, 0.8, 1.2, 1.7}, kFills = {0.08, 0.15, 0.28},
+                                 kVelocities = {0.0001, 0.03};
 
 // Writes a response library. Effects with runs: `effects`, at the given strengths, two seeds each.
 inline void write_library(const fs::path& folder, const std::map<std::string, std::vector<double>>& effects, double law,
@@ -124,8 +127,8 @@ inline void write_library(const fs::path& folder, const std::map<std::string, st
       if (names.count(row.test) == 0) {
         const std::string id = fmt::format("{}_{}_{}_s{}_r{}", row.test, name, strength, s, ++run);
         names[row.test] = id;
-        design += fmt::format("{},{},{},{},{:064x},{},{}\n", id, name, strength, s, run + 1000000L * seed, state.friction,
-                              state.rolling);
+        design += fmt::format("{},{},{},{},{:064x},{},{}\n", id, name, strength, s, run + 1000000L * seed,
+                              state.friction, state.rolling);
       }
       row.value = value(row, state) * (1 + seed_noise(row) * normal(random));
       row.u = 0.01 * row.value;
@@ -144,8 +147,8 @@ inline void write_library(const fs::path& folder, const std::map<std::string, st
         add(name, strength, s, state);
       }
   if (with_family) {
-    for (const auto& [friction, rolling] : std::vector<std::pair<double, double>>{
-             {23, 0.1}, {27, 0.1}, {25, 0.08}, {25, 0.12}, {23, 0.12}, {27, 0.08}}) {
+    for (const auto& [friction, rolling] :
+         std::vector<std::pair<double, double>>{{23, 0.1}, {27, 0.1}, {25, 0.08}, {25, 0.12}, {23, 0.12}, {27, 0.08}}) {
       State state = base;
       state.friction = friction;
       state.rolling = rolling;
@@ -164,11 +167,11 @@ inline void write_library(const fs::path& folder, const std::map<std::string, st
 }
 
 inline void write_discrepancy(const fs::path& folder, double scale = 1) {
-  std::ofstream(folder / "discrepancy.csv")
-      << "apparatus,observable,sd,common,length,laws\n"
-      << fmt::format("mixer,power,{},0.8,1,3\n", 0.03 * scale) << fmt::format("mixer,torque_ripple,{},0.9,1,3\n", 0.04 * scale)
-      << fmt::format("shearbox,shear_stress_steady,{},0.9,1,3\n", 0.01 * scale)
-      << fmt::format("repose,angle,{},0.9,1,3\n", 0.01 * scale);
+  std::ofstream(folder / "discrepancy.csv") << "apparatus,observable,sd,common,length,laws\n"
+                                            << fmt::format("mixer,power,{},0.8,1,3\n", 0.03 * scale)
+                                            << fmt::format("mixer,torque_ripple,{},0.9,1,3\n", 0.04 * scale)
+                                            << fmt::format("shearbox,shear_stress_steady,{},0.9,1,3\n", 0.01 * scale)
+                                            << fmt::format("repose,angle,{},0.9,1,3\n", 0.01 * scale);
 }
 
 // The runs of the toy's effects: what a small campaign would hold.
@@ -180,7 +183,8 @@ inline std::map<std::string, std::vector<double>> effects_with_runs() {
 }
 
 // A measured table: truth with its own seeds, u of 2 %.
-inline std::vector<vielto::Observation> measured(const State& state, std::mt19937_64& random, double relative_u = 0.02) {
+inline std::vector<vielto::Observation> measured(const State& state, std::mt19937_64& random,
+                                                 double relative_u = 0.02) {
   std::normal_distribution<double> normal;
   std::vector<vielto::Observation> result = rows({0.5, 1.0, 1.5}, {0.1, 0.15, 0.25}, {0.001, 0.02});
   for (vielto::Observation& row : result) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// gap_toy_library FOLDER TRUTHS: a toy response library in FOLDER/gap/library, TRUTHS other toy laws in FOLDER/truth/N, the toy's
-// tests in FOLDER/tests.csv. For the blind check on formulas instead of simulations (gap_toy_blind.sh).
+// gap_toy_library FOLDER TRUTHS: a toy response library in FOLDER/gap/library, TRUTHS other toy laws in FOLDER/truth/N,
+// the toy's tests in FOLDER/tests.csv. For the blind check on formulas instead of simulations (gap_toy_blind.sh).
 #include <cstdio>
 #include <cstdlib>
 
@@ -14,6 +14,7 @@ int main(int argc, char** argv) {
   std::mt19937_64 random(11);
   std::normal_distribution<double> normal;
   for (int t = 0; t < std::atoi(argv[2]); ++t)
-    toy::write_library(folder / "truth" / fmt::format("{}", t), toy::effects_with_runs(), normal(random), 100 + static_cast<unsigned>(t), false);
+    toy::write_library(folder / "truth" / fmt::format("{}", t), toy::effects_with_runs(), normal(random),
+                       100 + static_cast<unsigned>(t), false);
   vielto::write_observations((folder / "tests.csv").string(), toy::measured({}, random));
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// vielto gap {isolability, diagnose, next, confirm, discrepancy}: where the simulation departs from a measurement, why, how far.
+// vielto gap {isolability, diagnose, next, confirm, discrepancy}: where the simulation departs from a measurement, why,
+// how far.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -46,7 +47,8 @@ struct GapOptions {
     return o;
   }
   std::string candidate_file() const {
-    return candidates.empty() ? (fs::path(files.completed().settings).parent_path() / "next_tests.toml").string() : candidates;
+    return candidates.empty() ? (fs::path(files.completed().settings).parent_path() / "next_tests.toml").string()
+                              : candidates;
   }
   std::string rig_file() const {
     return rigs.empty() ? (fs::path(files.completed().settings).parent_path() / "rigs.toml").string() : rigs;
@@ -111,17 +113,21 @@ ReducedTable only_fit(const Question& q) {
 }
 
 json threshold_json(const Threshold& t) {
-  return {{"log_odds", t.log_odds}, {"low95", t.low95}, {"high95", t.high95}, {"draws", t.draws}, {"libraries", t.libraries}, {"seed", t.seed}};
+  return {{"log_odds", t.log_odds}, {"low95", t.low95},         {"high95", t.high95},
+          {"draws", t.draws},       {"libraries", t.libraries}, {"seed", t.seed}};
 }
 
-json isolability_json(const Isolability& i, const Threshold& t, const std::string& fingerprint, const json& provenance) {
+json isolability_json(const Isolability& i, const Threshold& t, const std::string& fingerprint,
+                      const json& provenance) {
   json j = {{"schema", 1}, {"effects", i.effects}};
   j["detectability"] = json::object();
   j["separation"] = json::object();
   for (std::size_t a = 0; a < i.effects.size(); ++a) {
     j["detectability"][i.effects[a]] = i.detectability[static_cast<Eigen::Index>(a)];
     for (std::size_t b = 0; b < i.effects.size(); ++b)
-      if (a != b) j["separation"][i.effects[a]][i.effects[b]] = i.separation(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(b));
+      if (a != b)
+        j["separation"][i.effects[a]][i.effects[b]] =
+            i.separation(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(b));
   }
   j["groups"] = i.groups;
   j["detectable"] = json::array();
@@ -138,9 +144,11 @@ Threshold threshold_of(const GapOptions& o, const Question& q) {
   if (!seal_holds(o.sealed)) throw BadInput(o.sealed, 0, "is not what its seal says", "bring the sealed file back");
   std::ifstream in(o.sealed);
   const json j = json::parse(in, nullptr, false);
-  if (j.is_discarded() || !j.contains("threshold")) throw BadInput(o.sealed, 0, "is no isolability.json", "make it with vielto gap isolability");
+  if (j.is_discarded() || !j.contains("threshold"))
+    throw BadInput(o.sealed, 0, "is no isolability.json", "make it with vielto gap isolability");
   if (j["fingerprint"] != q.fingerprint(o))
-    throw BadInput(o.sealed, 0, "was sealed for other rows, u, effects or another library", "seal it again before the data");
+    throw BadInput(o.sealed, 0, "was sealed for other rows, u, effects or another library",
+                   "seal it again before the data");
   const json& t = j["threshold"];
   return {t["log_odds"], t["low95"], t["high95"], t["draws"], t["libraries"], t["seed"]};
 }
@@ -167,7 +175,9 @@ void run_isolability(const GapOptions& o) {
   for (const std::string& note : q.model.notes) fmt::print("note: {}\n", note);
 }
 
-std::string title_of(const GapOptions& o) { return "Gap between simulation and measurement: " + fs::path(o.table).filename().string(); }
+std::string title_of(const GapOptions& o) {
+  return "Gap between simulation and measurement: " + fs::path(o.table).filename().string();
+}
 
 Diagnosis diagnosis_of(const GapOptions& o, const Question& q, const Isolability& i) {
   Diagnosis d = diagnose(q.model, threshold_of(o, q), q.inputs.settings);
@@ -219,7 +229,8 @@ void run_confirm(const GapOptions& o) {
   }
   const Plan plan = plan_confirmation(q.inputs, q.model, d, i, o.rig_file(), o.root,
                                       o.runs.empty() ? (fs::path(o.out) / "runs").string() : o.runs, o.seeds, o.vars);
-  for (const PlannedRun& run : plan.runs) provenance["commands"].push_back(fmt::format("{}", fmt::join(run.command, " ")));
+  for (const PlannedRun& run : plan.runs)
+    provenance["commands"].push_back(fmt::format("{}", fmt::join(run.command, " ")));
   if (!o.run) {
     for (const PlannedRun& run : plan.runs) fmt::print("{}\n", command_line(run));
     return;
@@ -235,10 +246,11 @@ void run_next(const GapOptions& o) {
   const Question q(o);
   Diagnosis d = diagnose(q.model, threshold_of(o, q), q.inputs.settings);
   d.next_tests = next_tests(q.inputs, only_fit(q), o.emulator(), d, o.candidate_file(), o.without, d.notes);
-  fmt::print("{}\n{:<22}{:>7}{:>10}{:>10}{:>12}  separates\n", verdict_sentence(d), "test", "hours", "sd now", "sd then", "sd an hour");
+  fmt::print("{}\n{:<22}{:>7}{:>10}{:>10}{:>12}  separates\n", verdict_sentence(d), "test", "hours", "sd now",
+             "sd then", "sd an hour");
   for (const NextTest& t : d.next_tests)
-    fmt::print("{:<22}{:>7.1f}{:>10.2f}{:>10.2f}{:>12.2f}  {}\n", t.name, t.hours, t.separation_now, t.separation, t.gain_per_hour,
-               t.separates);
+    fmt::print("{:<22}{:>7.1f}{:>10.2f}{:>10.2f}{:>12.2f}  {}\n", t.name, t.hours, t.separation_now, t.separation,
+               t.gain_per_hour, t.separates);
   for (const std::string& note : d.notes) fmt::print("note: {}\n", note);
 }
 
@@ -258,13 +270,15 @@ void run_discrepancy(const GapOptions& o) {
 
 void add_gap_command(CLI::App& app) {
   auto o = std::make_shared<GapOptions>();
-  CLI::App* gap = app.add_subcommand("gap", "why simulation and measurement disagree: which effect, where, how far it closes");
+  CLI::App* gap =
+      app.add_subcommand("gap", "why simulation and measurement disagree: which effect, where, how far it closes");
   gap->require_subcommand(1);
   const auto common = [&](CLI::App* c) {
     c->add_option("--library", o->files.library, "response library (gap/library/)")->required();
     c->add_option("--effects", o->files.effects, "folder of effect files; without it effects/ beside the library");
     c->add_option("--settings", o->files.settings, "without it diagnosis.toml beside the library");
-    c->add_option("--ignore", o->ignored, "conditions that need not agree with the library, such as moisture,wall")->delimiter(',');
+    c->add_option("--ignore", o->ignored, "conditions that need not agree with the library, such as moisture,wall")
+        ->delimiter(',');
     c->add_flag("--extrapolate", o->extrapolate, "outside the library's conditions: flagged, not refused");
   };
   const auto question = [&](CLI::App* c) {
@@ -278,7 +292,8 @@ void add_gap_command(CLI::App& app) {
         ->capture_default_str();
     c->add_flag("--no-discrepancy", o->no_discrepancy, "leave the law discrepancy out (more false alarms)");
     c->add_option("--seed", o->seed, "of the bootstrap")->capture_default_str();
-    c->add_option("--draws", o->draws, "of the bootstrap; without it those of the settings")->check(CLI::PositiveNumber);
+    c->add_option("--draws", o->draws, "of the bootstrap; without it those of the settings")
+        ->check(CLI::PositiveNumber);
   };
   const auto answer = [&](CLI::App* c) {
     c->add_option("--sealed", o->sealed, "isolability.json, sealed before the data: its threshold is taken");
@@ -286,22 +301,25 @@ void add_gap_command(CLI::App& app) {
   };
 
   CLI::App* isolability_command = gap->add_subcommand(
-      "isolability", "before any data: which effects these tests can tell apart\n"
+      "isolability",
+      "before any data: which effects these tests can tell apart\n"
       "The table's conditions and u count, its values do not. Writes isolability.json (sealed), .csv and .svg.");
   question(isolability_command);
   isolability_command->add_option("--out", o->out, "folder for the answer");
   isolability_command->callback([o] { run_isolability(*o); });
 
-  CLI::App* diagnose_command = gap->add_subcommand(
-      "diagnose", "what explains the gap: diagnosis.json and diagnosis.html\n"
-      "Example: vielto gap diagnose measured.csv --library gap/library --out answer");
+  CLI::App* diagnose_command =
+      gap->add_subcommand("diagnose",
+                          "what explains the gap: diagnosis.json and diagnosis.html\n"
+                          "Example: vielto gap diagnose measured.csv --library gap/library --out answer");
   question(diagnose_command);
   answer(diagnose_command);
   diagnose_command->add_option("--out", o->out, "folder for the answer")->required();
   diagnose_command->callback([o] { run_diagnose(*o); });
 
   CLI::App* confirm_command = gap->add_subcommand(
-      "confirm", "the check tests simulated again with the effect: prints the commands, or runs them (--run) and resumes");
+      "confirm",
+      "the check tests simulated again with the effect: prints the commands, or runs them (--run) and resumes");
   question(confirm_command);
   answer(confirm_command);
   confirm_command->add_option("--out", o->out, "folder for the answer")->required();

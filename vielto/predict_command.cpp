@@ -203,8 +203,9 @@ void write_covariance(const std::string& table, const std::vector<Observation>& 
   std::string text = "test_a,observable_a,test_b,observable_b,covariance\n";
   for (std::size_t i = 0; i < rows.size(); ++i)
     for (std::size_t j = i + 1; j < rows.size(); ++j)
-      text += fmt::format("{},power,{},power,{:.6g}\n", rows[i].test, rows[j].test,
-                          correlation(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) * rows[i].u * rows[j].u);
+      text +=
+          fmt::format("{},power,{},power,{:.6g}\n", rows[i].test, rows[j].test,
+                      correlation(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) * rows[i].u * rows[j].u);
   write_whole_file(std::filesystem::path(table).replace_extension(".covariance.csv").string(), text);
 }
 
@@ -275,8 +276,9 @@ void add_predict_command(CLI::App& app) {
       ->check(CLI::IsMember({"fit", "check"}))
       ->capture_default_str();
   command->add_option("--check-fills", o->check_fills, "fills whose rows in --out have the role check")->delimiter(',');
-  command->add_flag("--covariance", o->covariance,
-                    "also write OUT.covariance.csv: how the errors of one equation hang together (equation_covariance.h)");
+  command->add_flag(
+      "--covariance", o->covariance,
+      "also write OUT.covariance.csv: how the errors of one equation hang together (equation_covariance.h)");
   command->add_option("--moisture", o->moisture, "moisture (wet basis) of the rows in --out")
       ->check(CLI::Range(0.0, 1.0));
   command->callback([o] { predict_power(*o); });

@@ -47,17 +47,20 @@ struct Scored {
 
 std::vector<Scored> read_cases(const fs::path& folder, const fs::path& answers, std::optional<std::uint64_t> shuffle) {
   std::ifstream seals(folder / "seals.sha256");
-  if (!seals) throw BadInput((folder / "seals.sha256").string(), 0, "cannot be read", "name a folder made by gap-withhold");
+  if (!seals)
+    throw BadInput((folder / "seals.sha256").string(), 0, "cannot be read", "name a folder made by gap-withhold");
   std::vector<json> truths;
   std::vector<std::string> ids;
   std::string hash, file;
   for (int line = 1; seals >> hash >> file; ++line) {
     if (!fs::exists(folder / file) || sha256_of_file((folder / file).string()) != hash)
-      throw BadInput((folder / "seals.sha256").string(), line, file + " is not what its seal says", "bring the sealed truth back");
+      throw BadInput((folder / "seals.sha256").string(), line, file + " is not what its seal says",
+                     "bring the sealed truth back");
     truths.push_back(read_json(folder / file, "bring the sealed truth back"));
     ids.push_back(truths.back()["case"]);
   }
-  if (truths.empty()) throw BadInput((folder / "seals.sha256").string(), 0, "seals nothing", "make cases with gap-withhold");
+  if (truths.empty())
+    throw BadInput((folder / "seals.sha256").string(), 0, "seals nothing", "make cases with gap-withhold");
   if (shuffle) {
     std::mt19937_64 random(*shuffle);
     std::shuffle(truths.begin(), truths.end(), random);
@@ -74,7 +77,9 @@ std::vector<Scored> read_cases(const fs::path& folder, const fs::path& answers, 
   return cases;
 }
 
-bool holds(const Names& names, const std::string& name) { return std::find(names.begin(), names.end(), name) != names.end(); }
+bool holds(const Names& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
 
 using Pick = std::vector<const Scored*>;
 
@@ -111,7 +116,8 @@ Wilson wilson(int successes, int trials) {
 
 json score(const std::string& folder, const std::string& answers, const std::string& isolability,
            std::optional<std::uint64_t> shuffle) {
-  if (!seal_holds(isolability)) throw BadInput(isolability, 0, "is not what its seal says", "bring the sealed file back");
+  if (!seal_holds(isolability))
+    throw BadInput(isolability, 0, "is not what its seal says", "bring the sealed file back");
   const json sealed = read_json(isolability, "make it with vielto gap isolability");
   const Names detectable = sealed["detectable"];
   std::map<std::string, Names> group;
@@ -126,7 +132,8 @@ json score(const std::string& folder, const std::string& answers, const std::str
       if (counts(c)) picked.push_back(&c);
     return picked;
   };
-  const auto proportion = [&](json& into, const char* key, const Pick& picked, const std::function<bool(const Scored&)>& success) {
+  const auto proportion = [&](json& into, const char* key, const Pick& picked,
+                              const std::function<bool(const Scored&)>& success) {
     int n = 0;
     for (const Scored* c : picked) n += success(*c);
     const Wilson w = wilson(n, static_cast<int>(picked.size()));
@@ -141,7 +148,8 @@ json score(const std::string& folder, const std::string& answers, const std::str
     if (c.verdict() == "named") return c.named().size() == 1 && holds(own, c.named()[0]);
     if (c.verdict() != "ambiguous") return false;
     const Names stated = c.answer["group"];
-    return holds(stated, c.effects[0]) && std::all_of(stated.begin(), stated.end(), [&](const std::string& s) { return holds(own, s); });
+    return holds(stated, c.effects[0]) &&
+           std::all_of(stated.begin(), stated.end(), [&](const std::string& s) { return holds(own, s); });
   };
   const auto wrong = [](const Scored& c) {
     const Names names = c.named();
@@ -150,17 +158,20 @@ json score(const std::string& folder, const std::string& answers, const std::str
   const auto known = [&](const Scored& c) { return c.kind() == "known"; };
   proportion(result, "right", pick([&](const Scored& c) {
                return known(c) && c.strong() && group[c.effects[0]].size() == 1 && holds(detectable, c.effects[0]);
-             }), right);
-  proportion(result, "in_group", pick([&](const Scored& c) { return known(c) && c.strong() && holds(detectable, c.effects[0]); }), in_group);
-  proportion(result, "wrong_name", pick([&](const Scored& c) { return c.kind() != "none" && c.kind() != "removed"; }), wrong);
+             }),
+             right);
+  proportion(result, "in_group",
+             pick([&](const Scored& c) { return known(c) && c.strong() && holds(detectable, c.effects[0]); }),
+             in_group);
+  proportion(result, "wrong_name", pick([&](const Scored& c) { return c.kind() != "none" && c.kind() != "removed"; }),
+             wrong);
   proportion(result, "false_alarm", pick([](const Scored& c) { return c.kind() == "none"; }),
              [](const Scored& c) { return c.verdict() != "no_gap"; });
   const Pick removed = pick([](const Scored& c) { return c.kind() == "removed"; });
   proportion(result, "unknown_found", removed, [](const Scored& c) { return c.verdict() == "unknown"; });
   proportion(result, "removed_named", removed, [](const Scored& c) { return c.verdict() == "named"; });
-  proportion(result, "coverage90", pick([](const Scored& c) {
-               return c.kind() == "prior" && c.answer["strength"].contains(c.effects[0]);
-             }),
+  proportion(result, "coverage90",
+             pick([](const Scored& c) { return c.kind() == "prior" && c.answer["strength"].contains(c.effects[0]); }),
              [](const Scored& c) {
                const json& s = c.answer["strength"][c.effects[0]];
                const double truth = c.truth["effects"][c.effects[0]]["strength"];
@@ -176,7 +187,9 @@ json score(const std::string& folder, const std::string& answers, const std::str
   };
   // Measured by re-simulation where that was done, else what the emulator predicts.
   bool measured = true;
-  const auto shrink = [](const Scored& c) { return c.answer["shrink"].is_null() ? c.answer["shrink_predicted"] : c.answer["shrink"]; };
+  const auto shrink = [](const Scored& c) {
+    return c.answer["shrink"].is_null() ? c.answer["shrink_predicted"] : c.answer["shrink"];
+  };
   const auto square = [](double x) { return x * x; };
   const auto closes = [&](const Pick& picked, const std::function<double(const Scored&, const json&)>& what) {
     double after = 0, recalibrated = 0;
@@ -189,12 +202,15 @@ json score(const std::string& folder, const std::string& answers, const std::str
     return recalibrated > 0 ? 1 - std::sqrt(after / recalibrated) : 0.0;
   };
   const auto part = [](const char* key) {
-    return [key](const Scored& c, const json& s) { return s.is_null() ? c.truth["check_before"].get<double>() : s[key].get<double>(); };
+    return [key](const Scored& c, const json& s) {
+      return s.is_null() ? c.truth["check_before"].get<double>() : s[key].get<double>();
+    };
   };
   const Pick strong = pick([&](const Scored& c) { return known(c) && c.strong(); });
   for (const Scored* c : strong) measured = measured && !c->answer["shrink"].is_null();
   pooled("closure", strong, [&](const Pick& p) {
-    const double best = closes(p, [](const Scored& c, const json&) { return c.truth["check_true_effect"].get<double>(); });
+    const double best =
+        closes(p, [](const Scored& c, const json&) { return c.truth["check_true_effect"].get<double>(); });
     return best > 0 ? closes(p, part("after")) / best : 0.0;
   });
   pooled("placebo", strong, [&](const Pick& p) { return closes(p, part("placebo")); });
@@ -213,26 +229,31 @@ json score(const std::string& folder, const std::string& answers, const std::str
     }
     return p.empty() ? 0.0 : sum / static_cast<double>(p.size());
   });
-  pooled("where_f1", pick([](const Scored& c) { return c.kind() == "known" || c.kind() == "prior" || c.kind() == "pair"; }), [](const Pick& p) {
-    int both = 0, found = 0, there = 0;
-    for (const Scored* c : p) {
-      std::set<std::string> truth;
-      for (const auto& r : c->truth["regions"]) truth.insert(r.get<std::string>());
-      there += static_cast<int>(truth.size());
-      for (const auto& r : c->answer["where"]) {
-        if (r["q_value"].get<double>() > 0.05) continue;
-        ++found;
-        both += static_cast<int>(truth.count(r["apparatus"].get<std::string>() + " " + r["observable"].get<std::string>() + " " +
-                                             r["region"].get<std::string>()));
-      }
-    }
-    return found + there > 0 ? 2.0 * both / (found + there) : 1.0;
-  });
+  pooled("where_f1",
+         pick([](const Scored& c) { return c.kind() == "known" || c.kind() == "prior" || c.kind() == "pair"; }),
+         [](const Pick& p) {
+           int both = 0, found = 0, there = 0;
+           for (const Scored* c : p) {
+             std::set<std::string> truth;
+             for (const auto& r : c->truth["regions"]) truth.insert(r.get<std::string>());
+             there += static_cast<int>(truth.size());
+             for (const auto& r : c->answer["where"]) {
+               if (r["q_value"].get<double>() > 0.05) continue;
+               ++found;
+               both += static_cast<int>(truth.count(r["apparatus"].get<std::string>() + " " +
+                                                    r["observable"].get<std::string>() + " " +
+                                                    r["region"].get<std::string>()));
+             }
+           }
+           return found + there > 0 ? 2.0 * both / (found + there) : 1.0;
+         });
 
   result["by_effect"] = json::object();
   for (const char* level : {"weak", "middle", "strong"}) {
     for (const auto& entry : group) {
-      const Pick own = pick([&, &name = entry.first](const Scored& c) { return known(c) && c.truth["level"] == level && c.effects[0] == name; });
+      const Pick own = pick([&, &name = entry.first](const Scored& c) {
+        return known(c) && c.truth["level"] == level && c.effects[0] == name;
+      });
       if (own.empty()) continue;
       json& at = result["by_effect"][entry.first][level];
       proportion(at, "right", own, right);

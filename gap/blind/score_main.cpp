@@ -22,7 +22,8 @@ int main(int argc, char** argv) {
     if (!same_law.empty()) {
       std::ifstream in(same_law);
       result["same_law"] = nlohmann::ordered_json::parse(in, nullptr, false);
-      if (result["same_law"].is_discarded()) throw vielto::BadInput(same_law, 0, "is no JSON file", "name a score.json");
+      if (result["same_law"].is_discarded())
+        throw vielto::BadInput(same_law, 0, "is no JSON file", "name a score.json");
     }
     vielto::write_whole_file(out, result.dump(2) + "\n");
   });

@@ -30,11 +30,18 @@ struct Plan {
 
 Plan read_plan(const std::string& path) {
   const TomlTable t = TomlTable::read(path);
-  t.only({"no_effect_draws", "weak", "middle", "strong", "truths_per_effect", "draws", "removed", "sham", "pairs", "from_prior",
-          "reachable"});
+  t.only({"no_effect_draws", "weak", "middle", "strong", "truths_per_effect", "draws", "removed", "sham", "pairs",
+          "from_prior", "reachable"});
   const auto count = [&](const char* key) { return static_cast<int>(t.number(key, 0, 1e5)); };
-  Plan p{count("no_effect_draws"), count("truths_per_effect"), count("draws"), count("removed"), count("sham"),
-         count("pairs"), count("from_prior"), t.number("reachable", 0, 1), {}};
+  Plan p{count("no_effect_draws"),
+         count("truths_per_effect"),
+         count("draws"),
+         count("removed"),
+         count("sham"),
+         count("pairs"),
+         count("from_prior"),
+         t.number("reachable", 0, 1),
+         {}};
   for (const char* level : {"weak", "middle", "strong"}) p.levels.emplace_back(level, t.number(level, 0.1, 1e3));
   return p;
 }
@@ -69,7 +76,8 @@ class Maker {
       options.use_discrepancy = false;
       truths_.push_back(truth.emulator.model(table_, options, truth.settings));
     }
-    if (!seal_holds(request.isolability)) throw BadInput(request.isolability, 0, "is not what its seal says", "seal it again");
+    if (!seal_holds(request.isolability))
+      throw BadInput(request.isolability, 0, "is not what its seal says", "seal it again");
     std::ifstream in(request.isolability);
     groups_ = json::parse(in)["groups"].get<std::vector<std::vector<std::string>>>();
     u_.resize(library_model_.size());
@@ -111,14 +119,18 @@ class Maker {
       add(c);
     }
     const auto any_effect = [&] {
-      return library_model_.effects[std::uniform_int_distribution<std::size_t>(0, library_model_.effects.size() - 1)(random_)];
+      return library_model_
+          .effects[std::uniform_int_distribution<std::size_t>(0, library_model_.effects.size() - 1)(random_)];
     };
-    const auto any_truth = [&] { return std::uniform_int_distribution<int>(0, static_cast<int>(truths_.size()) - 1)(random_); };
+    const auto any_truth = [&] {
+      return std::uniform_int_distribution<int>(0, static_cast<int>(truths_.size()) - 1)(random_);
+    };
     for (int i = 0, tries = 0; i < plan_.pairs && tries < 100 * plan_.pairs; ++tries) {
       const int truth = any_truth();
       const std::string a = any_effect().name, b = any_effect().name;
       if (group_of(a) == group_of(b)) continue;
-      const auto s = strength_for(truth, a, plan_.levels[1].second, false), t = strength_for(truth, b, plan_.levels[1].second, false);
+      const auto s = strength_for(truth, a, plan_.levels[1].second, false),
+                 t = strength_for(truth, b, plan_.levels[1].second, false);
       if (!s || !t) continue;
       add({"pair", "middle", truth, {{a, *s}, {b, *t}}, {}, {}});
       ++i;
@@ -163,7 +175,8 @@ class Maker {
     return n > 0 ? std::sqrt(sum / n) : 0;
   }
 
-  // The first strength on the reachable part of the prior with a gap of k u; on the other side of 0 if `negative` and there is one.
+  // The first strength on the reachable part of the prior with a gap of k u; on the other side of 0 if `negative` and
+  // there is one.
   std::optional<double> strength_for(int truth, const std::string& name, double k, bool negative) const {
     const EffectResponse* e = truths_[truth].effect(name);
     if (!e) return std::nullopt;
@@ -240,11 +253,12 @@ class Maker {
       write_observations((partial / "cases" / id / "observations.csv").string(), rows);
       if (!table_.covariance_path.empty())
         throw BadInput(table_.covariance_path, 0, "is not carried into cases", "state tests with independent errors");
-      write_whole_file((partial / "cases" / id / "case.json").string(), json({{"schema", 1}, {"without", c.without}}).dump(2) + "\n");
+      write_whole_file((partial / "cases" / id / "case.json").string(),
+                       json({{"schema", 1}, {"without", c.without}}).dump(2) + "\n");
       const TableModel& truth = truths_[c.truth];
       const VectorXd moved = change(truth, c.effects);
-      json j = {{"schema", 1}, {"case", id}, {"nonce", fmt::format("{:016x}", random_())}, {"kind", c.kind}, {"level", c.level},
-                {"base_truth", c.truth}};
+      json j = {{"schema", 1},    {"case", id},       {"nonce", fmt::format("{:016x}", random_())},
+                {"kind", c.kind}, {"level", c.level}, {"base_truth", c.truth}};
       j["effects"] = json::object();
       Effects library_effects;
       for (const auto& [name, s] : c.effects) {
@@ -291,7 +305,8 @@ class Maker {
 }  // namespace
 
 WithholdResult withhold(const WithholdRequest& request) {
-  if (request.truths.empty()) throw BadInput("--truth", 0, "names no base truth", "name response libraries of other laws");
+  if (request.truths.empty())
+    throw BadInput("--truth", 0, "names no base truth", "name response libraries of other laws");
   return Maker(request).make();
 }
 

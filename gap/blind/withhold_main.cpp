@@ -13,7 +13,8 @@ int main(int argc, char** argv) {
   app.add_option("--settings", r.library.settings, "without it diagnosis.toml beside the library");
   app.add_option("--truth", r.truths, "response library of another law, a base truth (repeatable)")->required();
   app.add_option("--truth-effects", r.truth_effects, "effects of the truths, where they are other mechanisms");
-  app.add_option("--tests", r.tests, "observation table: conditions, roles and u of the rows (values are not used)")->required();
+  app.add_option("--tests", r.tests, "observation table: conditions, roles and u of the rows (values are not used)")
+      ->required();
   app.add_option("--sealed", r.isolability, "isolability.json of those tests")->required();
   app.add_option("--plan", r.plan, "how many cases of which kind (gap/blind/plan.toml)")->required();
   app.add_option("--ignore", r.ignored, "conditions that need not agree with the libraries")->delimiter(',');

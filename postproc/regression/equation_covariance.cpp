@@ -29,7 +29,8 @@ Eigen::MatrixXd equation_error_correlation(const Eigen::VectorXd& l, const Eigen
   Eigen::MatrixXd smooth(points, points);
   for (Eigen::Index i = 0; i < points; ++i)
     for (Eigen::Index j = 0; j < points; ++j)
-      smooth(i, j) = std::exp(-(std::pow((x(i, 1) - x(j, 1)) / step_l, 2) + std::pow((x(i, 2) - x(j, 2)) / step_n, 2)) / 2);
+      smooth(i, j) =
+          std::exp(-(std::pow((x(i, 1) - x(j, 1)) / step_l, 2) + std::pow((x(i, 2) - x(j, 2)) / step_n, 2)) / 2);
   const Eigen::MatrixXd rest = Eigen::MatrixXd::Identity(points, points) - hat;
   const Eigen::MatrixXd form = rest * smooth * rest;
   const double k = (static_cast<double>(points) - hat.trace()) / form.trace();
