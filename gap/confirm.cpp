@@ -21,6 +21,7 @@ using Eigen::VectorXd;
 
 struct Rig {
   std::string folder, script, post;
+  std::set<std::string> known;              // every -var its files state
   std::map<std::string, double> base;       // of every -var with a number
   std::map<std::string, std::string> vars;  // condition -> -var
 };
@@ -42,6 +43,7 @@ Rig read_rig(const TomlTable& file, const std::string& apparatus, const std::str
   const auto add = [&](const std::string& path, const std::string& prefix) {
     const ParFile par = ParFile::read((fs::path(rig.folder) / path).string());
     for (const Parameter& p : par.all()) {
+      rig.known.insert(prefix + p.name);
       char* end = nullptr;
       const double value = std::strtod(p.value.c_str(), &end);
       if (end != p.value.c_str() && *end == '\0') rig.base[prefix + p.name] = value;
@@ -140,6 +142,10 @@ Plan plan_confirmation(const Inputs& inputs, const TableModel& model, const Diag
           const Effect& effect = effect_named(inputs, v.effects[e]);
           for (const VarChange& change : effect.vars) {
             if (!change.acts_on(row.apparatus)) continue;
+            // LIGGGHTS takes any -var in silence: one that the rig does not read would be no effect at all.
+            if (rig.known.count(change.name) == 0)
+              throw BadInput(effect.path, 0, change.name, fmt::format("is no parameter of {}", rig.script),
+                             "give the rig this switch first (gap/README.md)");
             if (change.needs_base() && base.count(change.name) == 0)
               throw BadInput(effect.path, 0, change.name,
                              fmt::format("has no baseline value in the files of {}", row.apparatus),
