@@ -7,13 +7,14 @@
 #include "commands.h"
 
 int main(int argc, char** argv) {
-  CLI::App app{"vielto - mixing power of a granular mixer: geometry, records, numbers, regression"};
+  CLI::App app{"vielto - mixing power of a granular mixer: geometry, records, numbers, regression, gap"};
   app.require_subcommand(1);
   vielto::add_geometry_command(app);
   vielto::add_post_command(app);
   vielto::add_fit_command(app);
   vielto::add_predict_command(app);
   vielto::add_compare_command(app);
+  vielto::add_gap_command(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -3,8 +3,10 @@
 // booklet's.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -15,6 +17,7 @@
 #include "bad_input.h"
 #include "commands.h"
 #include "csv.h"
+#include "equation_covariance.h"
 #include "material_options.h"
 #include "power_equation.h"
 
@@ -27,7 +30,8 @@ struct PredictOptions {
   std::string equation, mixer, wall, out, role = "fit";
   bool thesis = false, extrapolate = false, json = false;
   MaterialOptions materials;
-  std::vector<double> speeds, fills;
+  std::vector<double> speeds, fills, check_fills;
+  bool covariance = false;
   double motor_power = 0, idle_power = 0, mixing_time = 0;
   std::optional<double> moisture;
 };
@@ -164,7 +168,7 @@ std::vector<Observation> observations(const PredictOptions& o, const Setting& s)
       const Prediction p = checked(o, s, fill, speed);
       Observation row;
       row.test = fmt::format("l{:.4g}_n{:.4g}", fill, speed);
-      row.role = o.role;
+      row.role = std::count(o.check_fills.begin(), o.check_fills.end(), fill) > 0 ? "check" : o.role;
       row.apparatus = "mixer";
       row.observable = "power";
       // Six digits are far more than the equation is good for, and read better.
@@ -180,6 +184,29 @@ std::vector<Observation> observations(const PredictOptions& o, const Setting& s)
     }
   }
   return rows;
+}
+
+// Beside TABLE.csv: TABLE.covariance.csv, the errors of one equation hang together.
+void write_covariance(const std::string& table, const std::vector<Observation>& rows) {
+  const Eigen::Index n = static_cast<Eigen::Index>(rows.size());
+  Eigen::VectorXd fill(n), speed(n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    fill[i] = *rows[static_cast<std::size_t>(i)].fill;
+    speed[i] = *rows[static_cast<std::size_t>(i)].speed;
+  }
+  Eigen::MatrixXd correlation;
+  try {
+    correlation = equation_error_correlation(fill, speed);
+  } catch (const std::invalid_argument& error) {
+    throw BadInput("--covariance", 0, error.what(), "ask for a grid of --speeds and --fills");
+  }
+  std::string text = "test_a,observable_a,test_b,observable_b,covariance\n";
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    for (std::size_t j = i + 1; j < rows.size(); ++j)
+      text +=
+          fmt::format("{},power,{},power,{:.6g}\n", rows[i].test, rows[j].test,
+                      correlation(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) * rows[i].u * rows[j].u);
+  write_whole_file(std::filesystem::path(table).replace_extension(".covariance.csv").string(), text);
 }
 
 void predict_power(const PredictOptions& o) {
@@ -202,7 +229,11 @@ void predict_power(const PredictOptions& o) {
     report.text +=
         fmt::format("note: u = {:.1f} % of the power, from the booklet's maximum error of 13.7 % (doc/equation.md)\n",
                     100 * thesis_relative_u());
-  if (!o.out.empty()) write_observations(o.out, observations(o, s));
+  if (!o.out.empty()) {
+    const std::vector<Observation> rows = observations(o, s);
+    if (o.covariance) write_covariance(o.out, rows);
+    write_observations(o.out, rows);
+  }
   std::fputs((o.json ? report.result.dump(2) + "\n" : report.text).c_str(), stdout);
 }
 
@@ -244,6 +275,10 @@ void add_predict_command(CLI::App& app) {
   command->add_option("--role", o->role, "role of the rows in --out")
       ->check(CLI::IsMember({"fit", "check"}))
       ->capture_default_str();
+  command->add_option("--check-fills", o->check_fills, "fills whose rows in --out have the role check")->delimiter(',');
+  command->add_flag(
+      "--covariance", o->covariance,
+      "also write OUT.covariance.csv: how the errors of one equation hang together (equation_covariance.h)");
   command->add_option("--moisture", o->moisture, "moisture (wet basis) of the rows in --out")
       ->check(CLI::Range(0.0, 1.0));
   command->callback([o] { predict_power(*o); });

@@ -1,0 +1,272 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "score.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <map>
+#include <random>
+#include <set>
+#include <vector>
+
+#include "bad_input.h"
+#include "sha256.h"
+
+namespace vielto::gap {
+namespace {
+
+namespace fs = std::filesystem;
+using json = nlohmann::ordered_json;
+using Names = std::vector<std::string>;
+
+json read_json(const fs::path& path, const char* mend) {
+  std::ifstream in(path);
+  const json j = in ? json::parse(in, nullptr, false) : json(json::value_t::discarded);
+  if (j.is_discarded()) throw BadInput(path.string(), 0, "is no JSON file", mend);
+  return j;
+}
+
+struct Scored {
+  json truth, answer;
+  Names effects;  // true ones, sorted
+  std::string kind() const { return truth["kind"]; }
+  bool strong() const { return truth["level"] == "strong"; }
+  std::string verdict() const { return answer["verdict"]; }
+  Names named() const { return answer["named"]; }
+  // The name of the true model among the probabilities.
+  std::string true_model() const {
+    if (kind() == "none") return "no_gap";
+    if (kind() == "removed") return "unknown";
+    return effects.size() == 2 ? effects[0] + "+" + effects[1] : effects[0];
+  }
+};
+
+std::vector<Scored> read_cases(const fs::path& folder, const fs::path& answers, std::optional<std::uint64_t> shuffle) {
+  std::ifstream seals(folder / "seals.sha256");
+  if (!seals)
+    throw BadInput((folder / "seals.sha256").string(), 0, "cannot be read", "name a folder made by gap-withhold");
+  std::vector<json> truths;
+  std::vector<std::string> ids;
+  std::string hash, file;
+  for (int line = 1; seals >> hash >> file; ++line) {
+    if (!fs::exists(folder / file) || sha256_of_file((folder / file).string()) != hash)
+      throw BadInput((folder / "seals.sha256").string(), line, file + " is not what its seal says",
+                     "bring the sealed truth back");
+    truths.push_back(read_json(folder / file, "bring the sealed truth back"));
+    ids.push_back(truths.back()["case"]);
+  }
+  if (truths.empty())
+    throw BadInput((folder / "seals.sha256").string(), 0, "seals nothing", "make cases with gap-withhold");
+  if (shuffle) {
+    std::mt19937_64 random(*shuffle);
+    std::shuffle(truths.begin(), truths.end(), random);
+  }
+  std::vector<Scored> cases;
+  for (std::size_t i = 0; i < truths.size(); ++i) {
+    Scored c;
+    c.truth = truths[i];
+    c.answer = read_json(answers / ids[i] / "diagnosis.json", "diagnose every case into ANSWERS/CASE");
+    for (const auto& entry : c.truth["effects"].items()) c.effects.push_back(entry.key());
+    std::sort(c.effects.begin(), c.effects.end());
+    cases.push_back(c);
+  }
+  return cases;
+}
+
+bool holds(const Names& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+using Pick = std::vector<const Scored*>;
+
+// Bootstrap over base truths, then over the cases of each.
+std::pair<double, double> interval(const Pick& cases, const std::function<double(const Pick&)>& statistic) {
+  std::map<int, Pick> by_truth;
+  for (const Scored* c : cases) by_truth[c->truth["base_truth"].get<int>()].push_back(c);
+  std::vector<const Pick*> truths;
+  for (const auto& entry : by_truth) truths.push_back(&entry.second);
+  std::mt19937_64 random(1);
+  std::vector<double> draws;
+  for (int b = 0; b < 2000 && !truths.empty(); ++b) {
+    Pick drawn;
+    for (std::size_t t = 0; t < truths.size(); ++t) {
+      const Pick& pool = *truths[std::uniform_int_distribution<std::size_t>(0, truths.size() - 1)(random)];
+      for (std::size_t i = 0; i < pool.size(); ++i)
+        drawn.push_back(pool[std::uniform_int_distribution<std::size_t>(0, pool.size() - 1)(random)]);
+    }
+    draws.push_back(statistic(drawn));
+  }
+  if (draws.empty()) return {0, 0};
+  std::sort(draws.begin(), draws.end());
+  return {draws[50], draws[1949]};
+}
+
+}  // namespace
+
+Wilson wilson(int successes, int trials) {
+  if (trials == 0) return {0, 0, 1};
+  const double z = 1.959963984540054, n = trials, p = successes / n, z2 = z * z / n;
+  const double centre = (p + z2 / 2) / (1 + z2), half = z / (1 + z2) * std::sqrt(p * (1 - p) / n + z2 / (4 * n));
+  return {p, std::max(0.0, centre - half), std::min(1.0, centre + half)};
+}
+
+json score(const std::string& folder, const std::string& answers, const std::string& isolability,
+           std::optional<std::uint64_t> shuffle) {
+  if (!seal_holds(isolability))
+    throw BadInput(isolability, 0, "is not what its seal says", "bring the sealed file back");
+  const json sealed = read_json(isolability, "make it with vielto gap isolability");
+  const Names detectable = sealed["detectable"];
+  std::map<std::string, Names> group;
+  for (const auto& g : sealed["groups"])
+    for (const auto& name : g) group[name] = g.get<Names>();
+  const std::vector<Scored> cases = read_cases(folder, answers, shuffle);
+
+  json result = {{"schema", 1}, {"cases", cases.size()}};
+  const auto pick = [&](const std::function<bool(const Scored&)>& counts) {
+    Pick picked;
+    for (const Scored& c : cases)
+      if (counts(c)) picked.push_back(&c);
+    return picked;
+  };
+  const auto proportion = [&](json& into, const char* key, const Pick& picked,
+                              const std::function<bool(const Scored&)>& success) {
+    int n = 0;
+    for (const Scored* c : picked) n += success(*c);
+    const Wilson w = wilson(n, static_cast<int>(picked.size()));
+    into[key] = picked.empty() ? json() : json(w.value);
+    into[std::string(key) + "_low95"] = w.low95;
+    into[std::string(key) + "_high95"] = w.high95;
+    into[std::string(key) + "_n"] = picked.size();
+  };
+  const auto right = [](const Scored& c) { return c.verdict() == "named" && c.named() == c.effects; };
+  const auto in_group = [&](const Scored& c) {
+    const Names& own = group[c.effects[0]];
+    if (c.verdict() == "named") return c.named().size() == 1 && holds(own, c.named()[0]);
+    if (c.verdict() != "ambiguous") return false;
+    const Names stated = c.answer["group"];
+    return holds(stated, c.effects[0]) &&
+           std::all_of(stated.begin(), stated.end(), [&](const std::string& s) { return holds(own, s); });
+  };
+  const auto wrong = [](const Scored& c) {
+    const Names names = c.named();
+    return std::any_of(names.begin(), names.end(), [&](const std::string& s) { return !holds(c.effects, s); });
+  };
+  const auto known = [&](const Scored& c) { return c.kind() == "known"; };
+  proportion(result, "right", pick([&](const Scored& c) {
+               return known(c) && c.strong() && group[c.effects[0]].size() == 1 && holds(detectable, c.effects[0]);
+             }),
+             right);
+  proportion(result, "in_group",
+             pick([&](const Scored& c) { return known(c) && c.strong() && holds(detectable, c.effects[0]); }),
+             in_group);
+  proportion(result, "wrong_name", pick([&](const Scored& c) { return c.kind() != "none" && c.kind() != "removed"; }),
+             wrong);
+  proportion(result, "false_alarm", pick([](const Scored& c) { return c.kind() == "none"; }),
+             [](const Scored& c) { return c.verdict() != "no_gap"; });
+  const Pick removed = pick([](const Scored& c) { return c.kind() == "removed"; });
+  proportion(result, "unknown_found", removed, [](const Scored& c) { return c.verdict() == "unknown"; });
+  proportion(result, "removed_named", removed, [](const Scored& c) { return c.verdict() == "named"; });
+  proportion(result, "coverage90",
+             pick([](const Scored& c) { return c.kind() == "prior" && c.answer["strength"].contains(c.effects[0]); }),
+             [](const Scored& c) {
+               const json& s = c.answer["strength"][c.effects[0]];
+               const double truth = c.truth["effects"][c.effects[0]]["strength"];
+               return s["low90"].get<double>() <= truth && truth <= s["high90"].get<double>();
+             });
+
+  const auto pooled = [&](const char* key, const Pick& picked, const std::function<double(const Pick&)>& statistic) {
+    const auto [low, high] = interval(picked, statistic);
+    result[key] = picked.empty() ? json() : json(statistic(picked));
+    result[std::string(key) + "_low95"] = low;
+    result[std::string(key) + "_high95"] = high;
+    result[std::string(key) + "_n"] = picked.size();
+  };
+  // Measured by re-simulation where that was done, else what the emulator predicts.
+  bool measured = true;
+  const auto shrink = [](const Scored& c) {
+    return c.answer["shrink"].is_null() ? c.answer["shrink_predicted"] : c.answer["shrink"];
+  };
+  const auto square = [](double x) { return x * x; };
+  const auto closes = [&](const Pick& picked, const std::function<double(const Scored&, const json&)>& what) {
+    double after = 0, recalibrated = 0;
+    for (const Scored* c : picked) {
+      const json s = shrink(*c);
+      const double base = s.is_null() ? c->truth["check_before"].get<double>() : s["recalibrated"].get<double>();
+      recalibrated += square(base);
+      after += square(what(*c, s));
+    }
+    return recalibrated > 0 ? 1 - std::sqrt(after / recalibrated) : 0.0;
+  };
+  const auto part = [](const char* key) {
+    return [key](const Scored& c, const json& s) {
+      return s.is_null() ? c.truth["check_before"].get<double>() : s[key].get<double>();
+    };
+  };
+  const Pick strong = pick([&](const Scored& c) { return known(c) && c.strong(); });
+  for (const Scored* c : strong) measured = measured && !c->answer["shrink"].is_null();
+  pooled("closure", strong, [&](const Pick& p) {
+    const double best =
+        closes(p, [](const Scored& c, const json&) { return c.truth["check_true_effect"].get<double>(); });
+    return best > 0 ? closes(p, part("after")) / best : 0.0;
+  });
+  pooled("placebo", strong, [&](const Pick& p) { return closes(p, part("placebo")); });
+  result["closure_basis"] = measured ? "re-simulated" : "predicted by the emulator where no re-simulation was made";
+  pooled("brier", pick([](const Scored&) { return true; }), [](const Pick& p) {
+    double sum = 0;
+    for (const Scored* c : p) {
+      double one = 0;
+      bool seen = false;
+      for (const auto& [name, value] : c->answer["probabilities"].items()) {
+        const bool is_true = name == c->true_model();
+        seen = seen || is_true;
+        one += std::pow(value.get<double>() - is_true, 2);
+      }
+      sum += seen ? one : one + 1;
+    }
+    return p.empty() ? 0.0 : sum / static_cast<double>(p.size());
+  });
+  pooled("where_f1",
+         pick([](const Scored& c) { return c.kind() == "known" || c.kind() == "prior" || c.kind() == "pair"; }),
+         [](const Pick& p) {
+           int both = 0, found = 0, there = 0;
+           for (const Scored* c : p) {
+             std::set<std::string> truth;
+             for (const auto& r : c->truth["regions"]) truth.insert(r.get<std::string>());
+             there += static_cast<int>(truth.size());
+             for (const auto& r : c->answer["where"]) {
+               if (r["q_value"].get<double>() > 0.05) continue;
+               ++found;
+               both += static_cast<int>(truth.count(r["apparatus"].get<std::string>() + " " +
+                                                    r["observable"].get<std::string>() + " " +
+                                                    r["region"].get<std::string>()));
+             }
+           }
+           return found + there > 0 ? 2.0 * both / (found + there) : 1.0;
+         });
+
+  result["by_effect"] = json::object();
+  for (const char* level : {"weak", "middle", "strong"}) {
+    for (const auto& entry : group) {
+      const Pick own = pick([&, &name = entry.first](const Scored& c) {
+        return known(c) && c.truth["level"] == level && c.effects[0] == name;
+      });
+      if (own.empty()) continue;
+      json& at = result["by_effect"][entry.first][level];
+      proportion(at, "right", own, right);
+      proportion(at, "in_group", own, in_group);
+      proportion(at, "wrong_name", own, wrong);
+    }
+    json& at = result["by_strength"][level];
+    const Pick own = pick([&](const Scored& c) { return known(c) && c.truth["level"] == level; });
+    proportion(at, "right", own, right);
+    proportion(at, "in_group", own, in_group);
+    proportion(at, "wrong_name", own, wrong);
+  }
+  return result;
+}
+
+}  // namespace vielto::gap

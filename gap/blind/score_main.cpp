@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// gap-score: opens the seals and marks the answers (score.h).
+#include <fstream>
+#include <optional>
+
+#include "csv.h"
+#include "program.h"
+#include "score.h"
+
+int main(int argc, char** argv) {
+  CLI::App app{"marks of a blind check", "gap-score"};
+  std::string folder, answers, sealed, out, same_law;
+  std::optional<std::uint64_t> shuffle;
+  app.add_option("FOLDER", folder, "made by gap-withhold")->required();
+  app.add_option("--answers", answers, "folder with CASE/diagnosis.json")->required();
+  app.add_option("--sealed", sealed, "isolability.json, sealed before the cases")->required();
+  app.add_option("--same-law", same_law, "score.json of cases made with the library's own law, put under same_law");
+  app.add_option("--shuffle", shuffle, "seed: truths handed to the wrong cases, to show what chance scores");
+  app.add_option("--out", out, "score.json to write")->required();
+  return vielto::gap::run_program(app, argc, argv, [&] {
+    auto result = vielto::gap::score(folder, answers, sealed, shuffle);
+    if (!same_law.empty()) {
+      std::ifstream in(same_law);
+      result["same_law"] = nlohmann::ordered_json::parse(in, nullptr, false);
+      if (result["same_law"].is_discarded())
+        throw vielto::BadInput(same_law, 0, "is no JSON file", "name a score.json");
+    }
+    vielto::write_whole_file(out, result.dump(2) + "\n");
+  });
+}

@@ -1,0 +1,313 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "withhold.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <random>
+
+#include "bad_input.h"
+#include "csv.h"
+#include "regions.h"
+#include "sha256.h"
+
+namespace vielto::gap {
+namespace {
+
+namespace fs = std::filesystem;
+using Eigen::Index;
+using Eigen::VectorXd;
+using json = nlohmann::ordered_json;
+
+struct Plan {
+  int no_effect_draws, truths_per_effect, draws, removed, sham, pairs, from_prior;
+  double reachable;
+  std::vector<std::pair<std::string, double>> levels;
+};
+
+Plan read_plan(const std::string& path) {
+  const TomlTable t = TomlTable::read(path);
+  t.only({"no_effect_draws", "weak", "middle", "strong", "truths_per_effect", "draws", "removed", "sham", "pairs",
+          "from_prior", "reachable"});
+  const auto count = [&](const char* key) { return static_cast<int>(t.number(key, 0, 1e5)); };
+  Plan p{count("no_effect_draws"),
+         count("truths_per_effect"),
+         count("draws"),
+         count("removed"),
+         count("sham"),
+         count("pairs"),
+         count("from_prior"),
+         t.number("reachable", 0, 1),
+         {}};
+  for (const char* level : {"weak", "middle", "strong"}) p.levels.emplace_back(level, t.number(level, 0.1, 1e3));
+  return p;
+}
+
+using Effects = std::vector<std::pair<std::string, double>>;  // names and strengths in the truth's own terms
+
+struct Case {
+  std::string kind;   // none, known, removed, sham, pair, prior
+  std::string level;  // weak, middle, strong; empty
+  int truth = 0;
+  Effects effects;
+  std::vector<std::string> without;
+  VectorXd observed;
+};
+
+class Maker {
+ public:
+  Maker(const WithholdRequest& request)
+      : request_(request), plan_(read_plan(request.plan)), library_(request.library), random_(request.seed) {
+    table_ = read_reduced_table(request.tests);
+    options_.ignored = {request.ignored.begin(), request.ignored.end()};
+    library_model_ = library_.emulator.model(table_, options_, library_.settings);
+    for (std::size_t i = 0; i < table_.rows.size(); ++i)
+      if (table_.rows[i].role == "fit") fit_.push_back(static_cast<Index>(i));
+    if (fit_.empty()) throw BadInput(request.tests, 0, "holds no row of role fit", "mark some");
+    for (const std::string& folder : request.truths) {
+      InputFiles files = request.library.completed();
+      files.library = folder;
+      if (!request.truth_effects.empty()) files.effects = request.truth_effects;
+      const Inputs truth(files);
+      EmulatorOptions options = options_;
+      options.use_discrepancy = false;
+      truths_.push_back(truth.emulator.model(table_, options, truth.settings));
+    }
+    if (!seal_holds(request.isolability))
+      throw BadInput(request.isolability, 0, "is not what its seal says", "seal it again");
+    std::ifstream in(request.isolability);
+    groups_ = json::parse(in)["groups"].get<std::vector<std::vector<std::string>>>();
+    u_.resize(library_model_.size());
+    for (Index i = 0; i < u_.size(); ++i) u_[i] = table_.rows[i].u;
+  }
+
+  WithholdResult make() {
+    for (int t = 0; t < static_cast<int>(truths_.size()); ++t)
+      for (int d = 0; d < plan_.no_effect_draws; ++d) add({"none", "", t, {}, {}, {}});
+    std::vector<Case> strong;
+    int next_truth = 0;
+    for (const EffectResponse& e : library_model_.effects)
+      for (const auto& [level, k] : plan_.levels)
+        for (int t = 0; t < std::min<int>(plan_.truths_per_effect, static_cast<int>(truths_.size())); ++t) {
+          const int truth = next_truth++ % static_cast<int>(truths_.size());
+          for (int d = 0; d < plan_.draws; ++d) {
+            const auto s = strength_for(truth, e.name, k, d % 2 == 1);
+            if (!s) {
+              unreachable_ += fmt::format("{},{},{},{}\n", e.name, level, truth, k);
+              ++result_.unreachable;
+              continue;
+            }
+            const Case& made = add({"known", level, truth, {{e.name, *s}}, {}, {}});
+            if (level == "strong") strong.push_back(made);
+          }
+        }
+    std::shuffle(strong.begin(), strong.end(), random_);
+    for (std::size_t i = 0; i < strong.size() && static_cast<int>(i) < plan_.removed; ++i) {
+      Case c = strong[i];
+      c.kind = "removed";
+      c.without = group_of(c.effects[0].first);
+      add(c);
+    }
+    for (std::size_t i = 0; i < strong.size() && static_cast<int>(i) < plan_.sham && groups_.size() > 1; ++i) {
+      Case c = strong[strong.size() - 1 - i];
+      c.kind = "sham";
+      do c.without = groups_[std::uniform_int_distribution<std::size_t>(0, groups_.size() - 1)(random_)];
+      while (c.without == group_of(c.effects[0].first));
+      add(c);
+    }
+    const auto any_effect = [&] {
+      return library_model_
+          .effects[std::uniform_int_distribution<std::size_t>(0, library_model_.effects.size() - 1)(random_)];
+    };
+    const auto any_truth = [&] {
+      return std::uniform_int_distribution<int>(0, static_cast<int>(truths_.size()) - 1)(random_);
+    };
+    for (int i = 0, tries = 0; i < plan_.pairs && tries < 100 * plan_.pairs; ++tries) {
+      const int truth = any_truth();
+      const std::string a = any_effect().name, b = any_effect().name;
+      if (group_of(a) == group_of(b)) continue;
+      const auto s = strength_for(truth, a, plan_.levels[1].second, false),
+                 t = strength_for(truth, b, plan_.levels[1].second, false);
+      if (!s || !t) continue;
+      add({"pair", "middle", truth, {{a, *s}, {b, *t}}, {}, {}});
+      ++i;
+    }
+    for (int i = 0; i < plan_.from_prior; ++i) {
+      const int truth = any_truth();
+      const EffectResponse e = any_effect();
+      const EffectResponse* own = truths_[truth].effect(e.name);
+      if (!own) continue;
+      const double s = std::uniform_real_distribution<double>(own->low, own->high)(random_);
+      add({"prior", "", truth, {{e.name, s}}, {}, {}});
+    }
+    write();
+    return result_;
+  }
+
+ private:
+  std::vector<std::string> group_of(const std::string& effect) const {
+    for (const auto& group : groups_)
+      if (std::find(group.begin(), group.end(), effect) != group.end()) return group;
+    return {effect};
+  }
+
+  VectorXd change(const TableModel& model, const Effects& effects) const {
+    VectorXd factor = VectorXd::Ones(model.size()), sum = VectorXd::Zero(model.size());
+    for (const auto& [name, s] : effects) {
+      const VectorXd r = model.effect(name)->response(s);
+      sum += r;
+      factor.array() *= 1 + r.array() / model.baseline.array();
+    }
+    return (model.relative.array() > 0).select((model.baseline.array() * (factor.array() - 1)), sum.array());
+  }
+
+  // The gap over u, by the protocol's definition of strength.
+  double size_of(const VectorXd& gap) const {
+    const VectorXd z = gap.cwiseQuotient(u_)(fit_).cwiseAbs();
+    const double limit = z.maxCoeff() / 5;
+    double sum = 0;
+    int n = 0;
+    for (const double x : z)
+      if (x > limit) sum += x * x, ++n;
+    return n > 0 ? std::sqrt(sum / n) : 0;
+  }
+
+  // The first strength on the reachable part of the prior with a gap of k u; on the other side of 0 if `negative` and
+  // there is one.
+  std::optional<double> strength_for(int truth, const std::string& name, double k, bool negative) const {
+    const EffectResponse* e = truths_[truth].effect(name);
+    if (!e) return std::nullopt;
+    const double end = plan_.reachable * ((negative && e->low < 0) || e->high == 0 ? e->low : e->high);
+    double before = 0;
+    for (int i = 1; i <= 400; ++i) {
+      const double s = end * i / 400;
+      if (size_of(change(truths_[truth], {{name, s}})) < k) {
+        before = s;
+        continue;
+      }
+      double low = before, high = s;
+      for (int j = 0; j < 40; ++j) {
+        const double middle = (low + high) / 2;
+        (size_of(change(truths_[truth], {{name, middle}})) < k ? low : high) = middle;
+      }
+      return (low + high) / 2;
+    }
+    return std::nullopt;
+  }
+
+  // The library's strength closest to the truth's noise-free change.
+  double library_strength(const std::string& name, const VectorXd& truth_change) const {
+    const EffectResponse* e = library_model_.effect(name);
+    double best = 0, least = 1e300;
+    for (int i = 0; i <= 2000; ++i) {
+      const double s = e->low + (e->high - e->low) * i / 2000;
+      const double d = ((truth_change - e->response(s)).cwiseQuotient(u_))(fit_).squaredNorm();
+      if (d < least) least = d, best = s;
+    }
+    return best;
+  }
+
+  const Case& add(Case c) {
+    if (c.observed.size() == 0) {
+      const TableModel& truth = truths_[c.truth];
+      std::normal_distribution<double> normal;
+      Eigen::MatrixXd covariance = truth.noise + truth.seed;
+      covariance.diagonal().array() += 1e-14 * covariance.diagonal().mean();
+      VectorXd z(truth.size());
+      for (double& x : z) x = normal(random_);
+      c.observed = truth.baseline + change(truth, c.effects) + covariance.llt().matrixL() * z;
+    }
+    cases_.push_back(std::move(c));
+    return cases_.back();
+  }
+
+  // Root mean square relative gap of simulated values on the check rows, noise taken out.
+  double check_gap(const VectorXd& observed, const VectorXd& simulated) const {
+    double sum = 0;
+    int n = 0;
+    for (Index i = 0; i < observed.size(); ++i) {
+      if (table_.rows[i].role != "check") continue;
+      sum += std::pow(simulated[i] / observed[i] - 1, 2) - std::pow(u_[i] / observed[i], 2);
+      ++n;
+    }
+    return n > 0 ? std::sqrt(std::max(0.0, sum / n)) : 0;
+  }
+
+  void write() {
+    const fs::path out(request_.out), partial(request_.out + ".partial");
+    if (fs::exists(out)) throw BadInput(out.string(), 0, "is there already", "withhold into a new folder");
+    fs::remove_all(partial);
+    fs::create_directories(partial / "truth");
+    // The order says nothing about the kind.
+    std::shuffle(cases_.begin(), cases_.end(), random_);
+    std::string seals;
+    int number = 0;
+    for (const Case& c : cases_) {
+      const std::string id = fmt::format("{:04}", ++number);
+      fs::create_directories(partial / "cases" / id);
+      std::vector<Observation> rows = table_.rows;
+      for (std::size_t i = 0; i < rows.size(); ++i) rows[i].value = c.observed[static_cast<Index>(i)];
+      write_observations((partial / "cases" / id / "observations.csv").string(), rows);
+      if (!table_.covariance_path.empty())
+        throw BadInput(table_.covariance_path, 0, "is not carried into cases", "state tests with independent errors");
+      write_whole_file((partial / "cases" / id / "case.json").string(),
+                       json({{"schema", 1}, {"without", c.without}}).dump(2) + "\n");
+      const TableModel& truth = truths_[c.truth];
+      const VectorXd moved = change(truth, c.effects);
+      json j = {{"schema", 1},    {"case", id},       {"nonce", fmt::format("{:016x}", random_())},
+                {"kind", c.kind}, {"level", c.level}, {"base_truth", c.truth}};
+      j["effects"] = json::object();
+      Effects library_effects;
+      for (const auto& [name, s] : c.effects) {
+        const double own = library_strength(name, change(truth, {{name, s}}));
+        library_effects.emplace_back(name, own);
+        j["effects"][name] = {{"truth_strength", s}, {"strength", own}, {"group", group_of(name)}};
+      }
+      j["removed"] = c.without;
+      j["regions"] = json::array();
+      std::vector<Observation> fit_rows;
+      for (const Index i : fit_) fit_rows.push_back(table_.rows[i]);
+      const VectorXd z = moved.cwiseQuotient(u_)(fit_);
+      for (const Region& r : regions_of(fit_rows))
+        if (std::sqrt(z(r.rows).squaredNorm() / static_cast<double>(r.rows.size())) > 2)
+          j["regions"].push_back(r.apparatus + " " + r.observable + " " + r.region);
+      j["check_before"] = check_gap(c.observed, library_model_.baseline);
+      j["check_true_effect"] = check_gap(c.observed, library_model_.baseline + change(library_model_, library_effects));
+      const fs::path file = partial / "truth" / (id + ".json");
+      write_whole_file(file.string(), j.dump(2) + "\n");
+      seals += fmt::format("{}  truth/{}.json\n", sha256_of_file(file.string()), id);
+    }
+    write_whole_file((partial / "seals.sha256").string(), seals);
+    write_whole_file((partial / "unreachable.csv").string(), "effect,strength,base_truth,k\n" + unreachable_);
+    fs::rename(partial, out);
+    result_.cases = number;
+  }
+
+  WithholdRequest request_;
+  Plan plan_;
+  Inputs library_;
+  std::mt19937_64 random_;
+  EmulatorOptions options_;
+  ReducedTable table_;
+  TableModel library_model_;
+  std::vector<Index> fit_;
+  std::vector<TableModel> truths_;
+  std::vector<std::vector<std::string>> groups_;
+  VectorXd u_;
+  std::vector<Case> cases_;
+  std::string unreachable_;
+  WithholdResult result_;
+};
+
+}  // namespace
+
+WithholdResult withhold(const WithholdRequest& request) {
+  if (request.truths.empty())
+    throw BadInput("--truth", 0, "names no base truth", "name response libraries of other laws");
+  return Maker(request).make();
+}
+
+}  // namespace vielto::gap

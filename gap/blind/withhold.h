@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Purpose: withheld cases. Observation tables with a known effect, made from something the diagnoser does not hold:
+// response libraries of other contact laws (one a base truth), with their own seeds. The truth files are sealed;
+// `vielto` neither links nor reads any of this.
+//
+// A case: noise-free values of the truth (its baseline, and its effect at a strength) on the rows of a table of tests,
+// plus one draw of its seed noise and of the rows' errors (u, covariance). u stands in the table of tests, fixed before
+// any case. FOLDER/cases/N/observations.csv and case.json ({"without": [...]}) are for the diagnoser;
+// FOLDER/truth/N.json and FOLDER/seals.sha256 for the score; FOLDER/unreachable.csv lists strengths beyond the
+// reachable part of the prior. The true strength is the library's strength closest to the noise-free truth, in units of
+// u over the fit rows.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "inputs.h"
+
+namespace vielto::gap {
+
+struct WithholdRequest {
+  InputFiles library;               // the diagnoser's
+  std::vector<std::string> truths;  // response libraries of other laws
+  std::string truth_effects;        // effects of the truths; without it the diagnoser's
+  std::string tests, plan, isolability, out;
+  std::vector<std::string> ignored;
+  std::uint64_t seed = 1;
+};
+
+struct WithholdResult {
+  int cases = 0, unreachable = 0;
+};
+
+// Errors: BadInput; refuses a folder that is there already.
+WithholdResult withhold(const WithholdRequest& request);
+
+}  // namespace vielto::gap

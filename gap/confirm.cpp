@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "confirm.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <set>
+
+#include "bad_input.h"
+#include "par_file.h"
+
+namespace vielto::gap {
+namespace {
+
+namespace fs = std::filesystem;
+using Eigen::Index;
+using Eigen::VectorXd;
+
+struct Rig {
+  std::string folder, script, post;
+  std::set<std::string> known;              // every -var its files state
+  std::map<std::string, double> base;       // of every -var with a number
+  std::map<std::string, std::string> vars;  // condition -> -var
+};
+
+Rig read_rig(const TomlTable& file, const std::string& apparatus, const std::string& root) {
+  if (!file.has(apparatus)) file.refuse(apparatus, "is missing", fmt::format("add [{}]", apparatus));
+  const TomlTable t = file.table(apparatus);
+  t.only({"folder", "script", "parameters", "wall", "vars", "post"});
+  Rig rig;
+  rig.folder = (fs::path(root) / t.text("folder")).lexically_normal().string();
+  rig.script = t.text("script");
+  if (!fs::exists(fs::path(rig.folder) / rig.script))
+    t.refuse("script", fmt::format("{}/{} is not there", rig.folder, rig.script),
+             "state --root, or a rig that can be run");
+  if (t.has("post")) rig.post = t.text("post");
+  const TomlTable vars = t.table("vars");
+  for (const auto& entry : vars.raw())
+    rig.vars[std::string(entry.first.str())] = vars.text(std::string(entry.first.str()));
+  const auto add = [&](const std::string& path, const std::string& prefix) {
+    const ParFile par = ParFile::read((fs::path(rig.folder) / path).string());
+    for (const Parameter& p : par.all()) {
+      rig.known.insert(prefix + p.name);
+      char* end = nullptr;
+      const double value = std::strtod(p.value.c_str(), &end);
+      if (end != p.value.c_str() && *end == '\0') rig.base[prefix + p.name] = value;
+    }
+  };
+  if (const toml::array* files = t.raw()["parameters"].as_array())
+    for (const toml::node& node : *files) add(node.value_or<std::string>(""), "");
+  if (t.has("wall")) add(t.text("wall"), "wall_");
+  return rig;
+}
+
+const Effect& effect_named(const Inputs& inputs, const std::string& name) {
+  return *std::find_if(inputs.effects.begin(), inputs.effects.end(), [&](const Effect& e) { return e.name == name; });
+}
+
+std::vector<double> medians(const ModelEvidence& m) {
+  std::vector<double> s;
+  for (std::size_t e = 0; e < m.effects.size(); ++e) s.push_back(m.strength(e).value);
+  return s;
+}
+
+}  // namespace
+
+Plan plan_confirmation(const Inputs& inputs, const TableModel& model, const Diagnosis& d,
+                       const Isolability& isolability, const std::string& rigs_file, const std::string& root,
+                       const std::string& runs, int seeds, const std::vector<std::string>& extra) {
+  std::vector<Index> fit_rows;
+  for (std::size_t i = 0; i < model.rows.size(); ++i)
+    if (model.rows[i].role == "fit") fit_rows.push_back(static_cast<Index>(i));
+  const TableModel fit = model.part(fit_rows);
+  Plan plan;
+  const auto add_variant = [&](const std::string& name, const ModelEvidence* m) {
+    Variant v;
+    v.name = name;
+    if (m) {
+      v.effects = m->effects;
+      v.strengths = medians(*m);
+    }
+    if (name != "before" && fit.family_weights.size() > 0)
+      v.parameters = recalibrated_parameters(fit, v.effects, v.strengths);
+    plan.variants.push_back(v);
+  };
+  add_variant("before", nullptr);
+  add_variant("recalibrated", nullptr);
+  const auto applied = d.applied();
+  if (!applied.empty()) {
+    add_variant("after", d.model(applied.size() == 2 ? applied[0] + "+" + applied[1] : applied[0]));
+    if (const ModelEvidence* placebo = placebo_of(d, isolability)) {
+      add_variant("placebo", placebo);
+      plan.placebo = placebo->name();
+    }
+  }
+
+  const TomlTable file = TomlTable::read(rigs_file);
+  std::map<std::string, Rig> rigs;
+  std::set<std::string> done;
+  for (const Observation& row : model.rows) {
+    if (row.role != "check" || row.apparatus == "bench" || !done.insert(row.test).second) continue;
+    if (rigs.count(row.apparatus) == 0) rigs[row.apparatus] = read_rig(file, row.apparatus, root);
+    const Rig& rig = rigs[row.apparatus];
+    for (const Variant& v : plan.variants)
+      for (int seed = 1; seed <= seeds; ++seed) {
+        PlannedRun run;
+        run.variant = v.name;
+        run.test = row.test;
+        run.apparatus = row.apparatus;
+        run.seed = seed;
+        run.folder = rig.folder;
+        run.run = (fs::absolute(runs) / fmt::format("{}-{}-s{}", row.test, v.name, seed)).lexically_normal().string();
+        run.command = {"liggghts", "-in", rig.script};
+        const auto var = [&](const std::string& name, const std::string& value) {
+          run.command.insert(run.command.end(), {"-var", name, value});
+        };
+        for (const NamedCondition& c : kConditions) {
+          const auto name = rig.vars.find(c.name);
+          if (name == rig.vars.end() || !(row.*c.member)) continue;
+          double value = *(row.*c.member);
+          for (std::size_t e = 0; e < v.effects.size(); ++e)
+            for (const Transform& t : effect_named(inputs, v.effects[e]).transforms)
+              if (t.operation == Operation::shift && t.condition == c.name && t.apparatus == row.apparatus)
+                value *= 1 + t.factor * v.strengths[e];
+          var(name->second, fmt::format("{:.9g}", value));
+        }
+        std::map<std::string, double> base = rig.base;
+        for (Index k = 0; k < v.parameters.size(); ++k) {
+          const std::string& name = inputs.library.parameter_names[static_cast<std::size_t>(k)];
+          base[name] = v.parameters[k];
+        }
+        std::map<std::string, std::string> changed;
+        for (Index k = 0; k < v.parameters.size(); ++k) {
+          const std::string& name = inputs.library.parameter_names[static_cast<std::size_t>(k)];
+          changed[name] = fmt::format("{:.9g}", base[name]);
+        }
+        for (std::size_t e = 0; e < v.effects.size(); ++e) {
+          if (v.strengths[e] == 0) continue;
+          const Effect& effect = effect_named(inputs, v.effects[e]);
+          for (const VarChange& change : effect.vars) {
+            if (!change.acts_on(row.apparatus)) continue;
+            // LIGGGHTS takes any -var in silence: one that the rig does not read would be no effect at all.
+            if (rig.known.count(change.name) == 0)
+              throw BadInput(effect.path, 0, change.name, fmt::format("is no parameter of {}", rig.script),
+                             "give the rig this switch first (gap/README.md)");
+            if (change.needs_base() && base.count(change.name) == 0)
+              throw BadInput(effect.path, 0, change.name,
+                             fmt::format("has no baseline value in the files of {}", row.apparatus),
+                             "state it in the rig's parameter file");
+            changed[change.name] = change.text(change.needs_base() ? base[change.name] : 0, v.strengths[e]);
+            if (change.rule == VarRule::switched) run.share = v.strengths[e];
+          }
+        }
+        for (const auto& [name, value] : changed) var(name, value);
+        for (const std::string& setting : extra) {
+          const auto equals = setting.find('=');
+          if (equals == std::string::npos || equals == 0)
+            throw BadInput("--var " + setting, 0, "is no setting", "write --var NAME=VALUE");
+          var(setting.substr(0, equals), setting.substr(equals + 1));
+        }
+        var("seed", fmt::format("{}", seed));
+        var("run", run.run);
+        if (!rig.post.empty()) run.post = rig.post + " '" + run.run + "'";
+        plan.runs.push_back(run);
+      }
+  }
+  return plan;
+}
+
+std::string command_line(const PlannedRun& run) {
+  return fmt::format("(cd '{}' && {}{})", run.folder, fmt::join(run.command, " "),
+                     run.post.empty() ? "" : " && " + run.post);
+}
+
+void run_plan(const Plan& plan) {
+  for (const PlannedRun& run : plan.runs) {
+    if (fs::exists(fs::path(run.run) / "post" / "observations.csv")) continue;
+    fs::create_directories(fs::path(run.run).parent_path());
+    PlannedRun missing = run;
+    if (fs::exists(fs::path(run.run) / "run.json"))
+      missing.command = {"true"};  // complete, only its rows are missing
+    else if (fs::exists(run.run + ".partial"))
+      missing.command.insert(missing.command.end(), {"-var", "resume", "yes"});
+    fmt::print("{}\n", command_line(missing));
+    std::fflush(stdout);
+    const std::string log = run.run + ".out";
+    if (std::system((command_line(missing) + " > '" + log + "' 2>&1").c_str()) != 0)
+      throw std::runtime_error(fmt::format("a run failed, see {}: {}", log, command_line(missing)));
+  }
+}
+
+Shrink measured_shrink(const Plan& plan, const Inputs& inputs, const TableModel& model) {
+  // Mean over the seeds by variant, test and observable.
+  std::map<std::string, std::pair<double, int>> sums;
+  std::map<std::string, double> share;
+  for (const PlannedRun& run : plan.runs) {
+    const std::string path = (fs::path(run.run) / "post" / "observations.csv").string();
+    if (!fs::exists(path)) throw BadInput(path, 0, "is not there", "run: " + command_line(run));
+    for (const Observation& row : read_reduced_table(path).rows) {
+      auto& sum = sums[run.variant + " " + run.test + " " + row.observable];
+      sum.first += row.value;
+      ++sum.second;
+    }
+    share[run.variant + " " + run.test] = run.share;
+  }
+  std::vector<const Observation*> rows;
+  std::set<std::string> tests;
+  for (const Observation& row : model.rows)
+    if (row.role == "check" && row.apparatus != "bench") {
+      rows.push_back(&row);
+      tests.insert(row.test);
+    }
+  const Index n = static_cast<Index>(rows.size());
+  VectorXd observed(n), u(n);
+  std::map<std::string, VectorXd> simulated;
+  const auto mean = [&](const std::string& variant, const Observation& row) {
+    const auto sum = sums.find(variant + " " + row.test + " " + row.observable);
+    if (sum == sums.end())
+      throw BadInput("runs of " + variant, 0, fmt::format("test '{}' shows no {}", row.test, row.observable),
+                     "the rig must write it to post/observations.csv");
+    return sum->second.first / sum->second.second;
+  };
+  for (const Variant& v : plan.variants) {
+    VectorXd y(n);
+    for (Index i = 0; i < n; ++i) {
+      const Observation& row = *rows[static_cast<std::size_t>(i)];
+      observed[i] = row.value;
+      u[i] = row.u;
+      y[i] = mean(v.name, row);
+      const double part = share.at(v.name + " " + row.test);
+      if (part != 1) y[i] = part * y[i] + (1 - part) * mean("recalibrated", row);
+      for (std::size_t e = 0; e < v.effects.size(); ++e) {
+        const Transform* t = effect_named(inputs, v.effects[e]).transform_of(row.apparatus, row.observable);
+        if (!t || t->operation == Operation::shift) continue;
+        const double g = t->amount(row, v.strengths[e]);
+        y[i] = t->operation == Operation::scale ? y[i] * (1 + g)
+               : t->operation == Operation::add ? y[i] + g
+                                                : y[i] * std::exp(g);
+      }
+    }
+    simulated[v.name] = y;
+  }
+  const VectorXd& recalibrated = simulated.at("recalibrated");
+  const auto of = [&](const char* name) { return simulated.count(name) ? simulated.at(name) : recalibrated; };
+  Shrink s = shrink_of(observed, u, simulated.at("before"), recalibrated, of("after"), of("placebo"),
+                       static_cast<int>(tests.size()));
+  s.placebo_name = plan.placebo;
+  return s;
+}
+
+}  // namespace vielto::gap

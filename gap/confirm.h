@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Purpose: the proof. The check tests are simulated again with the effect at its estimated strength; beside it, on the
+// same tests, the baseline, recalibration alone, and a placebo (the best effect from outside the group).
+//
+// A plan holds one `liggghts -in ... -var ...` for every check test, variant and seed (gap/rigs.toml says how a test
+// becomes a run). Effects on the measurement chain need no run of their own: they transform what the recalibrated
+// baseline shows; a shift of a condition is a run at the shifted condition. Runs that are complete (run.json there) are
+// not made again. `effects` are simulated at their median strengths together with the parameters of the family that fit
+// best with them.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "diagnosis.h"
+#include "inputs.h"
+
+namespace vielto::gap {
+
+struct PlannedRun {
+  std::string variant;  // before, recalibrated, after, placebo
+  std::string test, apparatus;
+  int seed = 1;
+  std::string folder;  // where it is started
+  std::string run;     // run folder
+  std::vector<std::string> command;
+  std::string post;  // command line after it; empty: none
+  double share = 1;  // of a switched effect: part of the way from the recalibrated run to this one
+};
+
+struct Variant {
+  std::string name;
+  std::vector<std::string> effects;
+  std::vector<double> strengths;
+  Eigen::VectorXd parameters;  // empty: the baseline's own
+};
+
+struct Plan {
+  std::vector<Variant> variants;
+  std::vector<PlannedRun> runs;
+  std::string placebo;
+};
+
+// `root`: the folder that gap/rigs.toml's paths start from; `runs`: where the run folders go; `extra`: further -var for
+// all. Errors: BadInput for a rig without an entry or a script that is not there.
+Plan plan_confirmation(const Inputs& inputs, const TableModel& model, const Diagnosis& diagnosis,
+                       const Isolability& isolability, const std::string& rigs, const std::string& root,
+                       const std::string& runs, int seeds, const std::vector<std::string>& extra);
+
+// A command line for a shell.
+std::string command_line(const PlannedRun& run);
+
+// Runs what is missing. Errors: std::runtime_error naming the command that failed.
+void run_plan(const Plan& plan);
+
+// The measured shrink. Errors: BadInput naming a run whose observations are missing.
+Shrink measured_shrink(const Plan& plan, const Inputs& inputs, const TableModel& model);
+
+}  // namespace vielto::gap

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "inputs.h"
+
+#include <fmt/core.h>
+#include <fmt/format.h>
+
+#include <cmath>
+#include <filesystem>
+
+#include "bad_input.h"
+#include "csv.h"
+#include "sha256.h"
+
+namespace vielto::gap {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<DiscrepancyEntry> discrepancies_of(const Library& library) {
+  const fs::path path = fs::path(library.folder) / "discrepancy.csv";
+  return fs::exists(path) ? read_discrepancies(path.string()) : std::vector<DiscrepancyEntry>();
+}
+
+}  // namespace
+
+InputFiles InputFiles::completed() const {
+  InputFiles f = *this;
+  const fs::path beside = fs::path(library).lexically_normal() / "..";
+  if (f.effects.empty()) f.effects = (beside / "effects").lexically_normal().string();
+  if (f.settings.empty()) f.settings = (beside / "diagnosis.toml").lexically_normal().string();
+  return f;
+}
+
+Inputs::Inputs(const InputFiles& asked)
+    : files(asked.completed()),
+      settings(Settings::read(files.settings)),
+      effects(read_effects(files.effects, settings)),
+      library(Library::read(files.library, effects)),
+      discrepancies(discrepancies_of(library)),
+      emulator(library, effects, discrepancies) {}
+
+nlohmann::ordered_json Inputs::provenance() const {
+  nlohmann::ordered_json p;
+  p["versions"] = {{"vielto", "0.1.0"},
+                   {"eigen", fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)}};
+  std::vector<std::string> paths = library.files;
+  const std::string discrepancy = (fs::path(library.folder) / "discrepancy.csv").string();
+  if (fs::exists(discrepancy)) paths.push_back(discrepancy);
+  paths.push_back(files.settings);
+  for (const Effect& e : effects) paths.push_back(e.path);
+  for (const std::string& path : paths) p["hashes"][fs::path(path).filename().string()] = sha256_of_file(path);
+  p["library_runs"] = library.runs.size();
+  return p;
+}
+
+ReducedTable only_rows(ReducedTable table, const std::vector<std::string>& only) {
+  std::vector<int> keep;
+  for (std::size_t i = 0; i < table.rows.size(); ++i) {
+    const Observation& row = table.rows[i];
+    bool kept = true;
+    for (const std::string& text : only) {
+      const auto equals = text.find('=');
+      const std::string name = text.substr(0, equals),
+                        value = equals == std::string::npos ? "" : text.substr(equals + 1);
+      const ConditionMember condition = condition_member(name);
+      const auto number = finite_number(value);
+      if (condition && number)
+        kept = kept && row.*condition && std::fabs(*(row.*condition) - *number) <= 1e-6 * std::fabs(*number);
+      else if (name == "wall" || name == "material" || name == "apparatus" || name == "observable")
+        kept = kept && value == (name == "wall"        ? row.wall
+                                 : name == "material"  ? row.material
+                                 : name == "apparatus" ? row.apparatus
+                                                       : row.observable);
+      else
+        throw BadInput("--only " + text, 0, "is no condition",
+                       "write wall=NAME, material=NAME, apparatus=NAME or speed=NUMBER");
+    }
+    if (kept) keep.push_back(static_cast<int>(i));
+  }
+  if (keep.empty()) throw BadInput(table.path, 0, "has no row left under --only", "name conditions that it has");
+  ReducedTable part = table;
+  part.rows.clear();
+  part.lines.clear();
+  const int n = static_cast<int>(keep.size());
+  Eigen::SparseMatrix<double> select(n, static_cast<int>(table.rows.size()));
+  for (int k = 0; k < n; ++k) {
+    part.rows.push_back(table.rows[keep[k]]);
+    part.lines.push_back(table.lines[keep[k]]);
+    select.insert(k, keep[k]) = 1;
+  }
+  part.covariance = select * table.covariance * select.transpose();
+  return part;
+}
+
+}  // namespace vielto::gap

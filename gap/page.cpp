@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "page.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace vielto::gap {
+namespace {
+
+using json = nlohmann::ordered_json;
+
+std::string escaped(const std::string& text) {
+  std::string out;
+  for (const char c : text) out += c == '<' ? "&lt;" : c == '>' ? "&gt;" : c == '&' ? "&amp;" : std::string(1, c);
+  return out;
+}
+
+// A horizontal bar of `part` (0 to 1) of the width.
+std::string bar(double part, const char* colour) {
+  return fmt::format("<svg width=\"220\" height=\"14\"><rect width=\"{:.1f}\" height=\"14\" fill=\"{}\"/></svg>",
+                     220 * std::clamp(part, 0.0, 1.0), colour);
+}
+
+// Relative gap to either side of a middle line, `full` at the edge.
+std::string signed_bar(double value, double full, const char* colour) {
+  const double length = 110 * std::min(1.0, std::fabs(value) / full);
+  return fmt::format(
+      "<svg width=\"220\" height=\"14\"><rect x=\"{:.1f}\" width=\"{:.1f}\" height=\"14\" fill=\"{}\"/>"
+      "<line x1=\"110\" x2=\"110\" y2=\"14\" stroke=\"black\"/></svg>",
+      value < 0 ? 110 - length : 110, length, colour);
+}
+
+std::string map_of_the_gap(const json& where) {
+  double full = 0.05;
+  for (const json& r : where) full = std::max(full, std::fabs(r["relative_gap"].get<double>()));
+  std::string rows;
+  for (const json& r : where) {
+    const bool found = r["q_value"].get<double>() <= 0.05;
+    rows += fmt::format(
+        "<tr><td>{} {}</td><td>{}</td><td>{}</td><td class=n>{:+.1f} %</td><td class=n>{:+.1f}</td><td "
+        "class=n>{:.2g}</td></tr>\n",
+        r["apparatus"].get<std::string>(), r["observable"].get<std::string>(), r["region"].get<std::string>(),
+        signed_bar(r["relative_gap"], full, found ? "#c0392b" : "#bbbbbb"), 100 * r["relative_gap"].get<double>(),
+        r["z"].get<double>(), r["q_value"].get<double>());
+  }
+  return "<table><tr><th>observable</th><th>region</th><th>measured against "
+         "simulated</th><th>gap</th><th>z</th><th>q</th></tr>\n" +
+         rows + "</table>\n<p>Red: a gap, at a false-discovery rate of 5 %. Grey: not shown.</p>\n";
+}
+
+std::string ranking(const json& probabilities) {
+  std::vector<std::pair<double, std::string>> models;
+  for (const auto& [name, p] : probabilities.items()) models.emplace_back(p.get<double>(), name);
+  std::sort(models.rbegin(), models.rend());
+  std::string rows;
+  for (std::size_t i = 0; i < models.size() && i < 8; ++i)
+    rows += fmt::format("<tr><td>{}</td><td>{}</td><td class=n>{:.1f} %</td></tr>\n",
+                        models[i].second == "no_gap" ? "no gap" : escaped(models[i].second),
+                        bar(models[i].first, "#2c6fbb"), 100 * models[i].first);
+  return "<table>" + rows + "</table>\n";
+}
+
+std::string before_and_after(const json& shrink, const std::string& how) {
+  const double full = std::max({shrink["before"].get<double>(), shrink["recalibrated"].get<double>(),
+                                shrink["after"].get<double>(), shrink["placebo"].get<double>(), 1e-9});
+  std::string rows;
+  const std::string placebo = "placebo (" + shrink.value("placebo_effect", std::string("none")) + ")";
+  for (const auto& [key, name] : {std::pair<const char*, std::string>{"before", "baseline"},
+                                  {"recalibrated", "recalibrated only"},
+                                  {"after", "with the effect"},
+                                  {"placebo", placebo}})
+    rows += fmt::format("<tr><td>{}</td><td>{}</td><td class=n>{:.1f} %</td></tr>\n", escaped(name),
+                        bar(shrink[key].get<double>() / full, "#27866a"), 100 * shrink[key].get<double>());
+  return fmt::format(
+      "<p>Root-mean-square gap on {} check tests, {}, measurement noise taken out. Closed: {:.0f} % (90 %: {:.0f} to "
+      "{:.0f} %).</p>\n<table>{}</table>\n",
+      shrink["tests"].get<int>(), how, 100 * shrink["closed"]["value"].get<double>(),
+      100 * shrink["closed"]["low90"].get<double>(), 100 * shrink["closed"]["high90"].get<double>(), rows);
+}
+
+}  // namespace
+
+std::string diagnosis_page(const json& d, const std::string& title) {
+  std::string page = fmt::format(
+      "<!DOCTYPE html>\n<html lang=\"en\"><head><meta "
+      "charset=\"utf-8\"><title>{0}</title>\n<style>body{{font-family:sans-serif;"
+      "max-width:52em;margin:2em auto;padding:0 1em}}table{{border-collapse:collapse}}td,th{{padding:.15em "
+      ".7em;text-align:left}}"
+      ".n{{text-align:right;font-variant-numeric:tabular-nums}}.verdict{{font-size:1.3em;border-left:.3em solid "
+      "#2c6fbb;"
+      "padding-left:.7em}}</style></head><body>\n<h1>{0}</h1>\n<p class=\"verdict\">{1}</p>\n",
+      escaped(title), escaped(d["sentence"].get<std::string>()));
+  page += fmt::format("<p>{:.0f} % of the gap could be absorbed by recalibration, {:.0f} % needs something new.</p>\n",
+                      100 * d["absorbable_by_recalibration"].get<double>(),
+                      100 - 100 * d["absorbable_by_recalibration"].get<double>());
+  page += "<h2>Where</h2>\n" + map_of_the_gap(d["where"]);
+  page += "<h2>Which effect</h2>\n" + ranking(d["probabilities"]);
+  page += "<h2>How far the gap closes</h2>\n";
+  if (!d["shrink"].is_null()) page += before_and_after(d["shrink"], "simulated again");
+  if (!d["shrink_predicted"].is_null())
+    page += before_and_after(d["shrink_predicted"], "predicted by the emulator, no proof");
+  if (d["shrink"].is_null() && d["shrink_predicted"].is_null())
+    page += "<p>Not asked: no effect was named, or there are no check tests.</p>\n";
+  page += "<h2>Next test</h2>\n";
+  if (d["next_test"].is_null())
+    page += "<p>None is needed to tell effects apart.</p>\n";
+  else
+    page += fmt::format(
+        "<p><b>{}</b> ({}): separates {}; from {:.1f} to {:.1f} standard deviations in {:g} hours.</p>\n",
+        escaped(d["next_test"]["name"].get<std::string>()), escaped(d["next_test"]["how"].get<std::string>()),
+        escaped(d["next_test"]["separates"].get<std::string>()), d["next_test"]["separation_now"].get<double>(),
+        d["next_test"]["separation"].get<double>(), d["next_test"]["hours"].get<double>());
+  page += "<h2>How firm</h2>\n<table><tr><th>if</th><th>verdict</th><th>best rival</th><th>its share</th></tr>\n";
+  for (const json& s : d["sensitivity"])
+    page += fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td><td class=n>{:.0f} %</td></tr>\n",
+                        escaped(s["change"].get<std::string>()), s["verdict"].get<std::string>(),
+                        escaped(s["top"].get<std::string>()), 100 * s["probability"].get<double>());
+  page += fmt::format(
+      "</table>\n<p>Log odds of the best rival against no gap {:.1f}, threshold {:.1f} from {} draws.</p>\n",
+      d["log_odds"]["best_rival"].get<double>(), d["log_odds"]["threshold"].get<double>(),
+      d["log_odds"]["draws"].get<int>());
+  for (const json& note : d["notes"]) page += "<p>Note: " + escaped(note.get<std::string>()) + "</p>\n";
+  return page + "</body></html>\n";
+}
+
+}  // namespace vielto::gap

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Purpose: where the simulation departs from the measurement, with a false-discovery rate over the regions.
+//
+// Regions: every observable of an apparatus as a whole, and by thirds of the table's speeds and fills ("slow, middle,
+// fast", "low, middle, high fill") where it has more than one. In a region the mean relative gap by generalised least
+// squares,
+//   m = (1' V^-1 g)/(1' V^-1 1), z = m sqrt(1' V^-1 1),
+// g the relative gap of its rows, V its covariance without any effect. p = 2 (1 - Phi(|z|)).
+// q value: Benjamini and Hochberg 1995 if the z's are independent, Benjamini and Yekutieli 2001 (factor sum 1/i) if any
+// two are correlated by more than 0.1 in magnitude.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "table_model.h"
+
+namespace vielto::gap {
+
+struct Region {
+  std::string apparatus, observable, region;
+  std::vector<Eigen::Index> rows;
+  double relative_gap = 0, u = 0, z = 0, p = 1, q = 1;
+};
+
+struct Location {
+  std::vector<Region> regions;  // smallest q first
+  bool dependent = false;       // Benjamini-Yekutieli
+};
+
+// Only the rows (apparatus, observable, conditions) count.
+std::vector<Region> regions_of(const std::vector<Observation>& rows);
+Location locate(const TableModel& model);
+
+// q values of p values (any order, kept).
+std::vector<double> q_values(const std::vector<double>& p, bool dependent);
+
+}  // namespace vielto::gap

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Everything the one likelihood needs for the n rows of a table, in the rows' own units: what the baseline, the
+// calibrated family and every effect say there, and what is uncertain about each. Made by the emulator.
+//
+//   y = f + b + r(s) + errors,   covariance of y at strengths s:
+//   C(s) = noise + seed + emulator + family + discrepancy + sum_e [emulator_e(s) + eta_e^2 R_e(s) G R_e(s)]
+// f baseline, b the family's mean less f, r the effects' responses, R = diag(r), G the shape correlation: an effect's
+// response may be off by eta of itself, half of that variance common to an observable, half of each condition's own.
+#pragma once
+
+#include <Eigen/Dense>
+#include <string>
+#include <vector>
+
+#include "observation_table.h"
+
+namespace vielto::gap {
+
+struct EffectResponse {
+  std::string name, unit, kind;
+  double low = 0, high = 0;  // prior range
+  double shape_error = 0;
+  Eigen::VectorXd strengths;                // k, ascending, 0 among them, closer together near 0
+  Eigen::MatrixXd mean;                     // n x k
+  std::vector<Eigen::MatrixXd> covariance;  // k of n x n, of the emulator
+
+  // At any strength in the range, linear between the strengths above.
+  Eigen::VectorXd response(double strength) const;
+  Eigen::MatrixXd emulator(double strength) const;
+};
+
+struct TableModel {
+  std::vector<Observation> rows;
+  Eigen::VectorXd observed, baseline, family_shift;
+  Eigen::VectorXd relative;  // 1 where effects multiply, 0 where they add up
+  Eigen::VectorXd scale;     // what a relative gap is relative to: the baseline, or the observable's usual size
+  Eigen::MatrixXd noise, seed, emulator, family, discrepancy;
+  Eigen::MatrixXd family_members;  // n x m: each member less f; m = 0 without a family
+  Eigen::VectorXd family_weights;
+  Eigen::MatrixXd family_parameters;  // m x p
+  Eigen::MatrixXd shape_correlation;
+  Eigen::MatrixXd unknown_correlation;  // of a gap nobody named: smooth within an observable, alike within an apparatus
+  Eigen::VectorXd unknown_scale;        // the effects' usual size at each row
+  std::vector<EffectResponse> effects;
+  std::vector<std::string> notes;    // what a reader must know
+  std::vector<std::string> outside;  // rows outside the library's conditions, where that is allowed
+
+  Eigen::Index size() const { return observed.size(); }
+  // C(0): all that is uncertain without an effect.
+  Eigen::MatrixXd null_covariance() const { return noise + seed + emulator + family + discrepancy; }
+  Eigen::VectorXd gap() const { return observed - baseline - family_shift; }
+  const EffectResponse* effect(const std::string& name) const;
+  // Only the rows with `keep`.
+  TableModel part(const std::vector<Eigen::Index>& keep) const;
+  // Effects not in `names` only.
+  TableModel without(const std::vector<std::string>& names) const;
+};
+
+}  // namespace vielto::gap

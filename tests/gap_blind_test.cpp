@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The blind check end to end on toy laws: seals, answers that cannot have seen a truth, marks, and what chance scores.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "score.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+std::string content(const fs::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::ostringstream out;
+  out << in.rdbuf();
+  return out.str();
+}
+
+// Wilson's score interval by hand: p = 8/10, z = 1.96: centre (0.8 + 0.19207)/(1.38415) = 0.71673,
+// half 1.96/1.38415 sqrt(0.016 + 0.0096036) = 0.22659 (z^2 = 3.8415).
+TEST(GapScore, WilsonByHand) {
+  const auto w = vielto::gap::wilson(8, 10);
+  EXPECT_DOUBLE_EQ(w.value, 0.8);
+  EXPECT_NEAR(w.low95, 0.4901, 2e-4);
+  EXPECT_NEAR(w.high95, 0.9433, 2e-4);
+  EXPECT_EQ(vielto::gap::wilson(0, 0).high95, 1);
+}
+
+class GapBlind : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder_ = fs::temp_directory_path() / fmt::format("gap_blind_{}", getpid());
+    std::ofstream(folder_.string() + ".toml") << "no_effect_draws = 3\nweak = 2.0\nmiddle = 4.0\nstrong = "
+                                                 "8.0\ntruths_per_effect = 1\ndraws = 1\nremoved = 5\n"
+                                                 "sham = 2\npairs = 2\nfrom_prior = 6\nreachable = 0.7\n";
+    status_ = run(fmt::format("'{}/tests/gap_toy_blind.sh' '{}' 4 '{}.toml' 200", VIELTO_SOURCE_DIR, folder_.string(),
+                              folder_.string()));
+  }
+  static void TearDownTestSuite() {
+    fs::remove_all(folder_);
+    fs::remove(folder_.string() + ".toml");
+  }
+  static int run(const std::string& command) {
+    const int status = std::system(("export PATH=" VIELTO_BIN_DIR ":" VIELTO_BIN_DIR "/../tests:$PATH; (" + command +
+                                    ") > " + folder_.string() + ".out 2>&1")
+                                       .c_str());
+    output_ = content(folder_.string() + ".out");
+    fs::remove(folder_.string() + ".out");
+    return WEXITSTATUS(status);
+  }
+  static json score(const char* name = "score.json") { return json::parse(content(folder_ / name)); }
+
+  static fs::path folder_;
+  static int status_;
+  static std::string output_;
+};
+fs::path GapBlind::folder_;
+int GapBlind::status_ = -1;
+std::string GapBlind::output_;
+
+// The script moves every truth out of reach while the diagnosis runs.
+TEST_F(GapBlind, RunsFromSealToScoreWithTheTruthsOutOfReach) {
+  ASSERT_EQ(status_, 0) << output_;
+  const json s = score();
+  for (const char* key : {"right", "in_group", "wrong_name", "false_alarm", "unknown_found", "removed_named",
+                          "coverage90", "closure", "placebo", "brier", "where_f1"}) {
+    EXPECT_TRUE(s.contains(key)) << key;
+    EXPECT_TRUE(s.contains(std::string(key) + "_low95")) << key;
+    EXPECT_TRUE(s.contains(std::string(key) + "_high95")) << key;
+  }
+  EXPECT_GT(s["right"], 0.6);
+  EXPECT_LT(s["wrong_name"], 0.2);
+  EXPECT_LT(s["false_alarm"], 0.4);
+  EXPECT_LT(s["brier"], 0.8);
+}
+
+TEST_F(GapBlind, TheAnswerIsTheSameWithAndWithoutTruthsInReach) {
+  ASSERT_EQ(status_, 0) << output_;
+  ASSERT_TRUE(fs::exists(folder_ / "blind/truth/0001.json"));  // back in place
+  fs::copy(folder_ / "answers/0001", folder_ / "apart", fs::copy_options::recursive);
+  fs::remove_all(folder_ / "answers/0001");
+  ASSERT_EQ(
+      run(fmt::format(
+          "cd '{}' && '{}/gap/blind/diagnose-all' blind/cases answers sealed/isolability.json gap/library --draws 200",
+          folder_.string(), VIELTO_SOURCE_DIR)),
+      0)
+      << output_;
+  EXPECT_EQ(content(folder_ / "answers/0001/diagnosis.json"), content(folder_ / "apart/diagnosis.json"));
+}
+
+// A right answer at random: one of about a dozen verdicts. With the truths permuted, names fit by chance only.
+TEST_F(GapBlind, ShuffledTruthScoresAsChance) {
+  ASSERT_EQ(status_, 0) << output_;
+  const json s = score("shuffled.json");
+  EXPECT_LT(s["right"], 0.35);
+  EXPECT_GT(s["false_alarm"], 0.3);
+  EXPECT_GT(s["brier"], score()["brier"].get<double>() + 0.3);
+}
+
+TEST_F(GapBlind, ATamperedTruthIsRefused) {
+  ASSERT_EQ(status_, 0) << output_;
+  const std::string truth = content(folder_ / "blind/truth/0002.json");
+  std::ofstream(folder_ / "blind/truth/0002.json") << truth << " ";
+  EXPECT_EQ(
+      run(fmt::format("cd '{}' && gap-score blind --answers answers --sealed sealed/isolability.json --out again.json",
+                      folder_.string())),
+      2);
+  EXPECT_NE(output_.find("truth/0002.json is not what its seal says"), std::string::npos) << output_;
+  EXPECT_FALSE(fs::exists(folder_ / "again.json"));
+  std::ofstream(folder_ / "blind/truth/0002.json") << truth;
+}
+
+TEST_F(GapBlind, CasesSayNothingOfTheTruth) {
+  ASSERT_EQ(status_, 0) << output_;
+  for (const auto& entry : fs::directory_iterator(folder_ / "blind/cases")) {
+    int files = 0;
+    for (const auto& file : fs::directory_iterator(entry.path())) {
+      ++files;
+      EXPECT_TRUE(file.path().filename() == "observations.csv" || file.path().filename() == "case.json") << file.path();
+    }
+    EXPECT_EQ(files, 2);
+    const json c = json::parse(content(entry.path() / "case.json"));
+    EXPECT_EQ(c.size(), 2u);
+  }
+}
+
+TEST_F(GapBlind, TheProgramVieltoHoldsNoneOfIt) {
+  ASSERT_EQ(run("strings " VIELTO_BIN_DIR "/vielto | grep -c -e seals.sha256 -e unreachable.csv"), 1) << output_;
+  ASSERT_EQ(run("strings " VIELTO_BIN_DIR "/gap-withhold | grep -q seals.sha256"), 0);
+}
+
+}  // namespace

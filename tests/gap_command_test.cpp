@@ -1,0 +1,351 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// `vielto gap` through its command line, on a toy library (gap_toy.h): answers, and one clear line for every bad input.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "gap_toy.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using vielto::Observation;
+
+std::string content(const fs::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::ostringstream out;
+  out << in.rdbuf();
+  return out.str();
+}
+
+void replace_in(const fs::path& path, const std::string& from, const std::string& to) {
+  std::string text = content(path);
+  const auto at = text.find(from);
+  ASSERT_NE(at, std::string::npos) << path << " has no " << from;
+  std::ofstream(path, std::ios::binary) << text.replace(at, from.size(), to);
+}
+
+class GapCommand : public testing::Test {
+ protected:
+  void SetUp() override {
+    const auto* info = testing::UnitTest::GetInstance()->current_test_info();
+    folder_ = fs::temp_directory_path() / fmt::format("gap_command_{}_{}", info->name(), getpid());
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+    // The same layout as gap/: effects and settings beside the library.
+    for (const char* name : {"effects", "diagnosis.toml", "next_tests.toml", "rigs.toml"})
+      fs::copy(fs::path(VIELTO_SOURCE_DIR) / "gap" / name, folder_ / name, fs::copy_options::recursive);
+    toy::write_library(folder_ / "library", toy::effects_with_runs(), 0, 7);
+    toy::write_discrepancy(folder_ / "library");
+    toy::State state;
+    state.effects["cohesion"] = 40000;
+    std::mt19937_64 random(5);
+    rows_ = toy::measured(state, random);
+    write(rows_);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  void write(const std::vector<Observation>& rows) { vielto::write_observations((folder_ / "t.csv").string(), rows); }
+  int gap(const std::string& arguments) {
+    const std::string command =
+        "cd '" + folder_.string() + "' && '" VIELTO_BIN_DIR "/vielto' gap " + arguments + " > out.txt 2> err.txt";
+    const int status = std::system(command.c_str());
+    out_ = content(folder_ / "out.txt");
+    err_ = content(folder_ / "err.txt");
+    return WEXITSTATUS(status);
+  }
+  int diagnose(const std::string& options = "") {
+    return gap("diagnose t.csv --library library --draws 100 --out answer " + options);
+  }
+  // Exit 2, one line, nothing written.
+  void expect_refusal(const std::string& part, const std::string& options = "") {
+    EXPECT_EQ(diagnose(options), 2) << out_ << err_;
+    EXPECT_EQ(err_.rfind("vielto: ", 0), 0u) << err_;
+    EXPECT_NE(err_.find(part), std::string::npos) << "expected: " << part << "\ngot: " << err_;
+    EXPECT_NE(err_.find("; "), std::string::npos) << "no way to mend it: " << err_;
+    EXPECT_EQ(std::count(err_.begin(), err_.end(), '\n'), 1) << err_;
+    EXPECT_FALSE(fs::exists(folder_ / "answer")) << "a half-written answer";
+  }
+  void expect_refusal_of_rows(const std::function<void(std::vector<Observation>&)>& change, const std::string& part) {
+    std::vector<Observation> rows = rows_;
+    change(rows);
+    write(rows);
+    expect_refusal(part);
+  }
+
+  fs::path folder_;
+  std::vector<Observation> rows_;
+  std::string out_, err_;
+};
+
+TEST_F(GapCommand, DiagnosesAKnownEffectAndWritesTheProtocolsKeys) {
+  ASSERT_EQ(diagnose(), 0) << err_;
+  const json d = json::parse(content(folder_ / "answer/diagnosis.json"));
+  EXPECT_EQ(d["schema"], 1);
+  EXPECT_EQ(d["verdict"], "named");
+  EXPECT_EQ(d["named"], json({"cohesion"}));
+  EXPECT_EQ(d["group"], json::array());
+  double sum = 0;
+  for (const auto& p : d["probabilities"]) sum += p.get<double>();
+  EXPECT_NEAR(sum, 1, 1e-9);
+  EXPECT_TRUE(d["probabilities"].contains("no_gap"));
+  EXPECT_TRUE(d["probabilities"].contains("unknown"));
+  EXPECT_TRUE(d["probabilities"].contains("cohesion+shape"));
+  const json& s = d["strength"]["cohesion"];
+  EXPECT_EQ(s["unit"], "J/m3");
+  EXPECT_LT(s["low90"], s["value"]);
+  EXPECT_LT(s["value"], s["high90"]);
+  EXPECT_EQ(d["effects"][0]["name"], "cohesion");
+  EXPECT_TRUE(d["absorbable_by_recalibration"] >= 0 && d["absorbable_by_recalibration"] <= 1);
+  for (const char* key : {"apparatus", "observable", "region", "z", "relative_gap", "q_value"})
+    EXPECT_TRUE(d["where"][0].contains(key)) << key;
+  EXPECT_TRUE(d["shrink"].is_null());  // nothing has been simulated again
+  EXPECT_LT(d["shrink_predicted"]["after"], d["shrink_predicted"]["before"]);
+  for (const char* key : {"versions", "hashes", "seeds", "commands"}) EXPECT_TRUE(d["provenance"].contains(key)) << key;
+  const std::string page = content(folder_ / "answer/diagnosis.html");
+  EXPECT_NE(page.find(d["sentence"].get<std::string>()), std::string::npos);
+  EXPECT_EQ(page.find("src="), std::string::npos);  // self-contained
+}
+
+TEST_F(GapCommand, TheSameTableGivesTheSameAnswer) {
+  ASSERT_EQ(diagnose(), 0) << err_;
+  const std::string first = content(folder_ / "answer/diagnosis.json");
+  ASSERT_EQ(diagnose(), 0) << err_;
+  EXPECT_EQ(content(folder_ / "answer/diagnosis.json"), first);
+}
+
+TEST_F(GapCommand, NamesOfTestsDoNotMatter) {
+  ASSERT_EQ(diagnose(), 0) << err_;
+  const json first = json::parse(content(folder_ / "answer/diagnosis.json"));
+  for (Observation& row : rows_) row.test = "x" + row.test;
+  write(rows_);
+  ASSERT_EQ(diagnose(), 0) << err_;
+  EXPECT_EQ(json::parse(content(folder_ / "answer/diagnosis.json"))["probabilities"], first["probabilities"]);
+}
+
+TEST_F(GapCommand, WithoutCheckRowsItDiagnosesAndSaysThatTheShrinkCannotBeProved) {
+  for (Observation& row : rows_) row.role = "fit";
+  write(rows_);
+  ASSERT_EQ(diagnose(), 0) << err_;
+  EXPECT_NE(out_.find("cannot be proved"), std::string::npos) << out_;
+  const json d = json::parse(content(folder_ / "answer/diagnosis.json"));
+  EXPECT_TRUE(d["shrink"].is_null());
+  EXPECT_TRUE(d["shrink_predicted"].is_null());
+  EXPECT_EQ(d["named"], json({"cohesion"}));
+}
+
+TEST_F(GapCommand, RefusesTablesWithOneClearLine) {
+  expect_refusal_of_rows(
+      [](auto& r) {
+        for (auto& row : r) row.role = "check";
+      },
+      "t.csv: holds no row of role fit");
+  expect_refusal_of_rows(
+      [](auto& r) {
+        for (auto& row : r) row.material = "gravel";
+      },
+      "t.csv, line 2, column material: the library has no runs for 'gravel'");
+  expect_refusal_of_rows(
+      [](auto& r) {
+        Observation d = r.back();
+        d.test = "drum", d.apparatus = "drum";
+        r.push_back(d);
+      },
+      "column observable: the library library lacks drum angle");
+  expect_refusal_of_rows(
+      [](auto& r) {
+        Observation d = r.back();
+        d.observable = "bulk_density", d.unit = "kg/m3";
+        r.push_back(d);
+      },
+      "lacks repose bulk_density");
+  expect_refusal_of_rows([](auto& r) { r[0].speed = r[1].speed = 3; },
+                         "t.csv, line 2, column speed: 3 is outside the library's 0.45 to 1.7");
+  expect_refusal_of_rows(
+      [](auto& r) {
+        r[0].fill.reset();
+        r[1].fill.reset();
+      },
+      "column fill: is empty, but the library depends on it");
+  expect_refusal_of_rows(
+      [](auto& r) {
+        for (auto& row : r)
+          if (row.apparatus == "shearbox") row.normal_stress = 5000;
+      },
+      "column normal_stress: 5000 is outside the library, which has 19610 only");
+  write(rows_);
+  replace_in(folder_ / "t.csv", ",fit,mixer,power,", ",fit,mixer,power,nan");
+  expect_refusal("column value: 'nan");
+  write(rows_);
+  replace_in(folder_ / "t.csv", ",W,", ",kW,");
+  expect_refusal("column unit: 'kW' is not the unit of power");
+  // u = 0 in the first row
+  write(rows_);
+  replace_in(folder_ / "t.csv", fmt::format("{},W", rows_[0].u), "0,W");
+  expect_refusal("t.csv, line 2, column u: 0 is no standard uncertainty");
+  write(rows_);
+  // Three rows whose pairwise correlations are all -0.9 cannot be.
+  std::string covariance = "test_a,observable_a,test_b,observable_b,covariance\n";
+  for (const auto& [a, b] : {std::pair(0, 2), std::pair(0, 4), std::pair(2, 4)})
+    covariance += fmt::format("{},power,{},power,{}\n", rows_[a].test, rows_[b].test, -0.9 * rows_[a].u * rows_[b].u);
+  std::ofstream(folder_ / "covariance.csv") << covariance;
+  expect_refusal("covariance.csv: is no covariance");
+}
+
+TEST_F(GapCommand, ExtrapolationIsFlaggedWhenItIsAllowed) {
+  rows_[0].speed = rows_[1].speed = 1.8;
+  write(rows_);
+  ASSERT_EQ(diagnose("--extrapolate"), 0) << err_;
+  EXPECT_NE(out_.find("extrapolated: line 2: speed 1.8 is outside the library's 0.45 to 1.7"), std::string::npos)
+      << out_;
+}
+
+TEST_F(GapCommand, RefusesLibrariesWithOneClearLine) {
+  const std::string design = content(folder_ / "library/design.csv");
+  const auto with_design = [&](const std::string& from, const std::string& to, const std::string& part) {
+    std::ofstream(folder_ / "library/design.csv") << design;
+    replace_in(folder_ / "library/design.csv", from, to);
+    expect_refusal(part);
+  };
+  with_design("none,0,1,", "none,1,1,", "column strength: is not 0 for the effect 'none'");
+  with_design("cohesion,20000,", "glue,20000,", "column effect: 'glue' has no file");
+  with_design("cohesion,20000,", "cohesion,2e9,", "column strength: 2000000000 is outside the prior range of cohesion");
+  with_design("none,0,1,", "none,0,1.5,", "column seed: '1.5' is no seed");
+  with_design("none,0,1,0", "none,0,1,x", "column run_hash: ");
+  with_design("test,effect", "run,effect", "design.csv, line 1: has another header");
+  // The second run's hash is the first's.
+  const auto hash = [&](int line) {
+    std::istringstream in(design);
+    std::string text;
+    for (int i = 0; i <= line; ++i) std::getline(in, text);
+    return text.substr(text.find("none,0,1,") + 9, 64);
+  };
+  with_design(hash(2), hash(1), "column run_hash: is the run of line 2 again");
+  std::ofstream(folder_ / "library/design.csv") << design;
+  replace_in(folder_ / "library/posterior.csv", "rollingResistance", "rollingFriction");
+  expect_refusal("posterior.csv, line 1: names the parameters frictionAngle, rollingFriction");
+  fs::remove(folder_ / "library/posterior.csv");
+  std::ofstream(folder_ / "library/discrepancy.csv")
+      << "apparatus,observable,sd,common,length,laws\nmixer,power,0.03,0.8,1,3\n";
+  expect_refusal("discrepancy.csv: lacks");
+  fs::remove_all(folder_ / "library");
+  toy::write_library(folder_ / "library", toy::effects_with_runs(), 0, 7, true, 5);
+  expect_refusal("has 5 seeds; run at least 6");
+  fs::remove_all(folder_ / "library");
+  expect_refusal("library: is no response library");
+}
+
+TEST_F(GapCommand, RefusesAStaleLibrary) {
+  std::ofstream(folder_ / "in.rig") << "run 1\n";
+  std::ofstream(folder_ / "library/inputs.csv") << "file,sha256\n../in.rig,"
+                                                   "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855\n";
+  expect_refusal("inputs.csv, line 2, column sha256: the library is stale: '../in.rig' has changed");
+}
+
+TEST_F(GapCommand, RefusesEffectsAndSettingsWithOneClearLine) {
+  const fs::path effect = folder_ / "effects/cohesion.toml";
+  const std::string good = content(effect);
+  const auto with_effect = [&](const std::string& from, const std::string& to, const std::string& part) {
+    std::ofstream(effect) << good;
+    replace_in(effect, from, to);
+    expect_refusal(part);
+  };
+  with_effect("name = \"cohesion\"", "name = \"glue\"", "column name: 'glue' is not the file's name");
+  with_effect("kind = \"dem\"", "kind = \"magic\"", "column kind: 'magic' is no kind");
+  with_effect("prior_high = 60000.0", "prior_high = \"many\"", "column prior_high: is not a finite number");
+  with_effect("prior_low = 0.0", "prior_low = 1.0", "column prior_low: 1 is out of range");
+  with_effect("unit = ", "units = ", "column units: is no key here");
+  with_effect("rule = \"value\"", "rule = \"times\"", "column rule: 'times' is none of its values");
+  with_effect("unit = \"J/m3\"", "unit = ", "cohesion.toml, line 4");
+  std::ofstream(effect) << good;
+  replace_in(folder_ / "diagnosis.toml", "no_gap = 0.5", "no_gap = 0.6");
+  expect_refusal("column prior: does not sum to 1");
+}
+
+TEST_F(GapCommand, RefusesUnknownNamesOnTheCommandLine) {
+  expect_refusal("--without glue: is no effect", "--without glue");
+  expect_refusal("--only colour=red: is no condition", "--only colour=red");
+  expect_refusal("has no row left under --only", "--only wall=B");
+}
+
+TEST_F(GapCommand, IsolabilityIsSealedAndItsThresholdIsTaken) {
+  ASSERT_EQ(gap("isolability t.csv --library library --draws 100 --out sealed"), 0) << err_;
+  const json i = json::parse(content(folder_ / "sealed/isolability.json"));
+  EXPECT_GT(i["detectability"]["cohesion"], 4);
+  EXPECT_GT(i["separation"]["cohesion"]["shape"], 3);
+  std::size_t members = 0;
+  for (const json& group : i["groups"]) members += group.size();
+  EXPECT_EQ(members, i["effects"].size());
+  EXPECT_EQ(content(folder_ / "sealed/isolability.svg").rfind("<svg", 0), 0u);
+  // Values do not matter, conditions and u do.
+  for (Observation& row : rows_) row.value *= 1.3;
+  write(rows_);
+  ASSERT_EQ(diagnose("--sealed sealed/isolability.json"), 0) << err_;
+  const json d = json::parse(content(folder_ / "answer/diagnosis.json"));
+  EXPECT_EQ(d["log_odds"]["threshold"], i["threshold"]["log_odds"]);
+  fs::remove_all(folder_ / "answer");
+  rows_[0].u *= 2;
+  write(rows_);
+  expect_refusal("was sealed for other rows", "--sealed sealed/isolability.json");
+  replace_in(folder_ / "sealed/isolability.json", "\"schema\": 1", "\"schema\": 2");
+  expect_refusal("is not what its seal says", "--sealed sealed/isolability.json");
+}
+
+TEST_F(GapCommand, DiscrepancyFromDevelopmentLaws) {
+  std::string tables;
+  for (const double law : {-1.0, 0.5, 1.5}) {
+    toy::State state;
+    state.law = law;
+    std::mt19937_64 random(static_cast<unsigned>(law * 10 + 50));
+    const std::string name = fmt::format("law{}.csv", law);
+    vielto::write_observations((folder_ / name).string(), toy::measured(state, random));
+    tables += name + " ";
+  }
+  ASSERT_EQ(gap("discrepancy " + tables + "--library library --out found.csv"), 0) << err_;
+  const std::string found = content(folder_ / "found.csv");
+  EXPECT_EQ(found.rfind("apparatus,observable,sd,common,length,laws\n", 0), 0u);
+  // The toy's laws differ in power by 3 % times n^0.4 times (-1, 0.5, 1.5): root mean square 3.3 %. Three laws give the
+  // sd to a factor of about two, and upwards.
+  const auto at = found.find("mixer,power,");
+  ASSERT_NE(at, std::string::npos) << found;
+  const double sd = std::stod(found.substr(at + 12));
+  EXPECT_GT(sd, 0.02);
+  EXPECT_LT(sd, 0.10);
+}
+
+TEST_F(GapCommand, NextTestRanksByGainPerHour) {
+  ASSERT_EQ(gap("next t.csv --library library --draws 100"), 0) << err_;
+  EXPECT_NE(out_.find("sd an hour"), std::string::npos);
+  EXPECT_NE(out_.find("mixer_slow_low"), std::string::npos) << out_;
+}
+
+TEST_F(GapCommand, ConfirmPrintsTheCommandsOfEveryCheckTest) {
+  // The toy has no rigs: those of the repository lend their scripts. Mixer tests only.
+  rows_.erase(std::remove_if(rows_.begin(), rows_.end(),
+                             [](const Observation& r) { return r.apparatus != "mixer" && r.role == "check"; }),
+              rows_.end());
+  write(rows_);
+  ASSERT_EQ(gap("confirm t.csv --library library --draws 100 --out answer --root " VIELTO_SOURCE_DIR), 0) << err_;
+  EXPECT_FALSE(fs::exists(folder_ / "answer"));
+  // Three check tests, four variants.
+  EXPECT_EQ(std::count(out_.begin(), out_.end(), '\n'), 12) << out_;
+  std::istringstream lines(out_);
+  int with_effect = 0;
+  for (std::string line; std::getline(lines, line);) {
+    EXPECT_NE(line.find("liggghts -in in.mixer -var speed "), std::string::npos) << line;
+    EXPECT_NE(line.find("vielto post"), std::string::npos) << line;
+    const bool after = line.find("-after-s1") != std::string::npos;
+    EXPECT_EQ(line.find("-var cohesion sjkr2") != std::string::npos, after) << line;
+    EXPECT_EQ(line.find("-var frictionAngle") != std::string::npos, line.find("-before-") == std::string::npos) << line;
+    with_effect += after;
+  }
+  EXPECT_EQ(with_effect, 3);
+}
+
+}  // namespace

@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The likelihood against closed forms: marginal likelihood of the linear Gaussian case, probabilities, regions,
+// smoothing.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "discrepancy.h"
+#include "evidence.h"
+#include "gaussian_process.h"
+#include "regions.h"
+
+namespace {
+
+using namespace vielto::gap;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+double standard_normal(double x) { return 0.5 * std::erfc(-x / std::sqrt(2.0)); }
+
+// n rows, effects linear in the strength without shape or emulator error, so that everything is Gaussian.
+TableModel linear_model(const VectorXd& y, const std::vector<VectorXd>& slopes, double low, double high) {
+  const Eigen::Index n = y.size();
+  TableModel m;
+  m.rows.resize(static_cast<std::size_t>(n));
+  m.observed = y;
+  m.baseline = VectorXd::Constant(n, 10);
+  m.scale = m.baseline;
+  m.family_shift = m.relative = VectorXd::Zero(n);
+  m.noise = MatrixXd::Identity(n, n) * 0.25;
+  m.noise(0, 1) = m.noise(1, 0) = 0.1;
+  for (auto member : {&TableModel::seed, &TableModel::emulator, &TableModel::family, &TableModel::discrepancy})
+    m.*member = MatrixXd::Zero(n, n);
+  m.shape_correlation = m.unknown_correlation = MatrixXd::Identity(n, n);
+  m.unknown_scale = VectorXd::Ones(n);
+  int number = 0;
+  for (const VectorXd& slope : slopes) {
+    EffectResponse e;
+    e.name = std::string(1, static_cast<char>('a' + number++));
+    e.low = low;
+    e.high = high;
+    e.strengths.resize(3);
+    e.strengths << std::min(low, -1e-9), 0, high;
+    e.mean = slope * e.strengths.transpose();
+    e.covariance.assign(3, MatrixXd::Zero(n, n));
+    m.effects.push_back(e);
+  }
+  return m;
+}
+
+// One effect, y = f + s a + e: with V = a' C^-1 a and s^ = a' C^-1 d / V,
+//   p(y) = N(y; f + s^ a, C) sqrt(2 pi / V) [Phi((h - s^) sqrt V) - Phi((l - s^) sqrt V)] / (h - l).
+TEST(GapEvidence, OneEffectAgainstTheClosedForm) {
+  VectorXd a(4), y(4);
+  a << 1, 2, 0.5, -1;
+  for (const double s : {0.0, 0.02, 1.0, 2.9}) {
+    y << 10.3 + s, 9.8 + 2 * s, 10.1 + 0.5 * s, 10.2 - s;
+    const TableModel m = linear_model(y, {a}, 0, 3);
+    const MatrixXd c = m.null_covariance();
+    const VectorXd d = y - m.baseline;
+    const double v = a.dot(c.inverse() * a), best = a.dot(c.inverse() * d) / v;
+    const VectorXd rest = d - best * a;
+    const double exact =
+        -0.5 * rest.dot(c.inverse() * rest) - 0.5 * std::log((2 * M_PI * c).determinant()) +
+        0.5 * std::log(2 * M_PI / v) +
+        std::log((standard_normal((3 - best) * std::sqrt(v)) - standard_normal(-best * std::sqrt(v))) / 3);
+    // The midpoint rule with 64 cells over a bell cut off at 0: its error is below a thousandth.
+    EXPECT_NEAR(effect_evidence(m, {&m.effects[0]}).log_evidence, exact, 1e-3) << s;
+  }
+}
+
+// Two effects with a Gaussian well inside the prior: p(y) = N(y; f + A s^, C) 2 pi / sqrt(det A' C^-1 A) / 36.
+TEST(GapEvidence, TwoEffectsAgainstTheClosedForm) {
+  MatrixXd a(5, 2);
+  a << 1, 0.5, 2, -1, 0.5, 1, -1, 2, 1.5, 0.3;
+  VectorXd y(5);
+  y << 11.2, 10.4, 10.9, 10.6, 11.8;
+  const TableModel m = linear_model(y, {a.col(0), a.col(1)}, -3, 3);
+  const MatrixXd c = m.null_covariance(), information = a.transpose() * c.inverse() * a;
+  const VectorXd d = y - m.baseline, best = information.inverse() * a.transpose() * c.inverse() * d,
+                 rest = d - a * best;
+  const double exact = -0.5 * rest.dot(c.inverse() * rest) - 0.5 * std::log((2 * M_PI * c).determinant()) +
+                       std::log(2 * M_PI / std::sqrt(information.determinant())) - std::log(36.0);
+  const ModelEvidence pair = effect_evidence(m, {&m.effects[0], &m.effects[1]});
+  EXPECT_NEAR(pair.log_evidence, exact, 1e-3);
+  // Its marginal intervals are those of the normal distribution: 1.645 standard deviations; cells are a fifth of one.
+  for (int e = 0; e < 2; ++e) {
+    const double sd = std::sqrt(information.inverse()(e, e));
+    const Interval i = pair.strength(static_cast<std::size_t>(e));
+    EXPECT_NEAR(i.value, best[e], 0.1 * sd);
+    EXPECT_NEAR(i.low90, best[e] - 1.645 * sd, 0.15 * sd);
+    EXPECT_NEAR(i.high90, best[e] + 1.645 * sd, 0.15 * sd);
+  }
+}
+
+TEST(GapEvidence, ProbabilitiesSumToOneAndFollowTheData) {
+  Settings settings;
+  settings.prior_no_gap = 0.5, settings.prior_single = 0.3, settings.prior_pair = 0.1, settings.prior_unknown = 0.1;
+  settings.unknown_low = 0.3, settings.unknown_high = 6;
+  VectorXd a(4), b(4), y(4);
+  a << 1, 2, 0.5, -1;
+  b << 1, -1, 1, 1;
+  for (const double s : {0.0, 1.0, 2.0}) {
+    y << 10.1 + s, 9.9 + 2 * s, 10.0 + 0.5 * s, 10.1 - s;
+    const TableModel m = linear_model(y, {a, b}, 0, 3);
+    const auto models = all_evidence(m, settings);
+    ASSERT_EQ(models.size(), 5u);  // no gap, unknown, a, b, a+b
+    double sum = 0, of_a = 0, none = 0;
+    for (const ModelEvidence& model : models) {
+      sum += model.probability;
+      if (model.name() == "a") of_a = model.probability;
+      if (model.name() == "no_gap") none = model.probability;
+    }
+    EXPECT_NEAR(sum, 1, 1e-12);
+    if (s == 0) {
+      EXPECT_GT(none, 0.5);
+    }
+    if (s == 2) {
+      EXPECT_GT(of_a, 0.7);
+    }
+  }
+}
+
+// Benjamini and Hochberg 1995, the 15 p values of their example (section 3.2): four are below 0.05 (i/15 rule).
+TEST(GapRegions, BenjaminiHochbergByHand) {
+  const std::vector<double> p = {0.0001, 0.0004, 0.0019, 0.0095, 0.0201, 0.0278, 0.0298, 0.0344,
+                                 0.0459, 0.3240, 0.4262, 0.5719, 0.6528, 0.7590, 1.0};
+  const auto q = q_values(p, false);
+  EXPECT_NEAR(q[0], 0.0001 * 15, 1e-12);
+  EXPECT_NEAR(q[2], 0.0019 * 15 / 3, 1e-12);
+  EXPECT_NEAR(q[3], 0.0095 * 15 / 4, 1e-12);
+  EXPECT_NEAR(q[4], 0.0201 * 15 / 5, 1e-12);
+  // 0.0278*15/6 = 0.0695, but 0.0298*15/7 = 0.063857 is smaller and stands for it.
+  EXPECT_NEAR(q[5], 0.0298 * 15 / 7, 1e-12);
+  int found = 0;
+  for (const double x : q) found += x <= 0.05;
+  EXPECT_EQ(found, 4);
+  // Any dependence: times 1 + 1/2 + ... + 1/15 = 3.318228993.
+  EXPECT_NEAR(q_values(p, true)[0], 0.0015 * 3.318228993, 1e-10);
+  // The order of the input does not matter.
+  EXPECT_NEAR(q_values({0.04, 0.001}, false)[1], 0.002, 1e-12);
+}
+
+TEST(GapSmoothing, ResponseIsZeroAtZeroAndLearnsACurve) {
+  std::vector<Point> points;
+  VectorXd v(12);
+  int i = 0;
+  const auto truth = [](double t, double c) { return 0.4 * t * (1 + 0.5 * c) - 0.1 * t * t; };
+  for (const double c : {0.0, 0.5, 1.0})
+    for (const double t : {0.25, 0.5, 0.75, 1.0}) {
+      points.push_back({t, VectorXd::Constant(1, c), {}});
+      v[i++] = truth(t, c);
+    }
+  const GaussianProcess gp(GaussianProcess::Form::response, points, v, MatrixXd::Identity(12, 12) * 1e-6);
+  const auto p = gp.at({{0, VectorXd::Constant(1, 0.3), {}}, {0.6, VectorXd::Constant(1, 0.25), {}}});
+  EXPECT_EQ(p.mean[0], 0);
+  EXPECT_EQ(p.covariance(0, 0), 0);
+  EXPECT_NEAR(p.mean[1], truth(0.6, 0.25), 0.004);  // 2 % of the response, four times the noise
+}
+
+// Stated errors of the smoothed values hold: over many noisy libraries the squared error over the stated variance is 1.
+TEST(GapSmoothing, StatedErrorsHold) {
+  std::mt19937_64 random(3);
+  std::normal_distribution<double> normal;
+  double sum = 0;
+  constexpr int kLibraries = 200;
+  for (int l = 0; l < kLibraries; ++l) {
+    std::vector<Point> points;
+    VectorXd v(9);
+    for (int i = 0; i < 9; ++i) {
+      points.push_back({0, VectorXd::Constant(1, i / 8.0), {}});
+      v[i] = std::sin(2 * i / 8.0) + 0.05 * normal(random);
+    }
+    const GaussianProcess gp(GaussianProcess::Form::level, points, v, MatrixXd::Identity(9, 9) * 0.0025);
+    const auto p = gp.at({{0, VectorXd::Constant(1, 0.4), {}}});
+    sum += std::pow(p.mean[0] - std::sin(0.8), 2) / p.covariance(0, 0);
+  }
+  // Standard deviation of the mean of 200 chi^2: 0.1; the chosen kernel adds to either side.
+  EXPECT_GT(sum / kLibraries, 0.5);
+  EXPECT_LT(sum / kLibraries, 1.7);
+}
+
+TEST(GapDiscrepancy, RecoversItsSize) {
+  std::mt19937_64 random(9);
+  std::normal_distribution<double> normal;
+  std::vector<LawDifference> laws;
+  for (int l = 0; l < 30; ++l) {
+    LawDifference law;
+    const double shared = normal(random);
+    law.difference.resize(6);
+    for (int i = 0; i < 6; ++i) {
+      law.c.push_back(VectorXd::Constant(1, i / 5.0));
+      law.difference[i] = 0.05 * shared + 0.01 * normal(random);
+    }
+    law.noise = MatrixXd::Identity(6, 6) * 0.0001;
+    laws.push_back(law);
+  }
+  const Discrepancy d = estimate_discrepancy(laws);
+  // 30 laws give a standard deviation to 1/sqrt(60) = 13 %; three of those.
+  EXPECT_NEAR(d.sd, 0.05, 0.02);
+  EXPECT_GT(d.common, 0.5);
+  // Three laws with the same scatter: uncertain, therefore larger.
+  laws.resize(3);
+  double squares = 0;
+  for (const LawDifference& law : laws) squares += law.difference.squaredNorm() / 18;
+  EXPECT_GT(estimate_discrepancy(laws).sd, std::sqrt(std::max(0.0, squares - 0.0001)));
+}
+
+}  // namespace

@@ -1,0 +1,24 @@
+#!/usr/bin/env bash
+# gap_toy_blind.sh FOLDER TRUTHS PLAN [DRAWS]: the whole blind check on toy libraries, from sealing to score.json.
+# Needs build/bin and build/tests on the PATH; made new each time.
+set -euo pipefail
+here=$(cd "$(dirname "$0")" && pwd)
+folder=$1 truths=$2 plan=$3 draws=${4:-1000}
+rm -rf "$folder"
+mkdir -p "$folder/gap"
+cp -r "$here"/../gap/effects "$here"/../gap/*.toml "$folder/gap/"
+gap_toy_library "$folder" "$truths"
+cd "$folder"
+vielto gap isolability tests.csv --library gap/library --draws "$draws" --out sealed >/dev/null
+truth=()
+for t in truth/*/; do truth+=(--truth "$t"); done
+gap-withhold --library gap/library "${truth[@]}" --tests tests.csv --sealed sealed/isolability.json --plan "$plan" --out blind >/dev/null
+# The diagnosis runs without any truth in reach.
+mkdir -p hidden/blind
+mv truth hidden/
+mv blind/truth blind/seals.sha256 hidden/blind/
+"$here/../gap/blind/diagnose-all" blind/cases answers sealed/isolability.json gap/library --draws "$draws"
+mv hidden/truth .
+mv hidden/blind/* blind/
+gap-score blind --answers answers --sealed sealed/isolability.json --out score.json
+gap-score blind --answers answers --sealed sealed/isolability.json --shuffle 1 --out shuffled.json

@@ -1,0 +1,347 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// vielto gap {isolability, diagnose, next, confirm, discrepancy}: where the simulation departs from a measurement, why,
+// how far.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "bad_input.h"
+#include "commands.h"
+#include "confirm.h"
+#include "csv.h"
+#include "inputs.h"
+#include "next_question.h"
+#include "page.h"
+#include "sha256.h"
+
+namespace vielto {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace vielto::gap;
+using json = nlohmann::ordered_json;
+
+struct GapOptions {
+  InputFiles files;
+  std::string table, out, candidates, sealed, rigs, root = ".", runs;
+  std::vector<std::string> tables, ignored, only, without, vars;
+  double runs_per_observation = 1;
+  std::uint64_t seed = 1;
+  int seeds = 1, draws = 0;
+  bool extrapolate = false, no_discrepancy = false, run = false;
+
+  EmulatorOptions emulator() const {
+    EmulatorOptions o;
+    o.ignored = {ignored.begin(), ignored.end()};
+    o.extrapolate = extrapolate;
+    o.runs_per_observation = runs_per_observation;
+    o.use_discrepancy = !no_discrepancy;
+    return o;
+  }
+  std::string candidate_file() const {
+    return candidates.empty() ? (fs::path(files.completed().settings).parent_path() / "next_tests.toml").string()
+                              : candidates;
+  }
+  std::string rig_file() const {
+    return rigs.empty() ? (fs::path(files.completed().settings).parent_path() / "rigs.toml").string() : rigs;
+  }
+};
+
+// The table in question and its model, all rows and the fit rows.
+struct Question {
+  Inputs inputs;
+  ReducedTable table;
+  TableModel model, fit;
+
+  explicit Question(const GapOptions& o)
+      : inputs(o.files),
+        table(only_rows(read_reduced_table(o.table), o.only)),
+        model(inputs.emulator.model(table, o.emulator(), inputs.settings).without(o.without)),
+        fit(model.part(rows_of(table, "fit"))) {
+    for (const std::string& name : o.without)
+      if (std::none_of(inputs.effects.begin(), inputs.effects.end(), [&](const Effect& e) { return e.name == name; }))
+        throw BadInput("--without " + name, 0, "is no effect", "name one of the effects' folder");
+    if (o.draws > 0) inputs.settings.draws = o.draws;
+  }
+
+  static std::vector<Eigen::Index> rows_of(const ReducedTable& table, const std::string& role) {
+    std::vector<Eigen::Index> keep;
+    for (std::size_t i = 0; i < table.rows.size(); ++i)
+      if (table.rows[i].role == role) keep.push_back(static_cast<Eigen::Index>(i));
+    if (keep.empty() && role == "fit")
+      throw BadInput(table.path, 0, "holds no row of role fit", "a diagnosis rests on fit rows; mark some");
+    return keep;
+  }
+
+  Threshold threshold(const GapOptions& o) const {
+    const auto keep = rows_of(table, "fit");
+    return bootstrap_threshold(inputs.emulator, fit, inputs.settings, o.seed, [&](const Emulator& e) {
+      return e.model(table, o.emulator(), inputs.settings).without(o.without).part(keep);
+    });
+  }
+  // What groups and threshold depend on: conditions and u of the fit rows, library, settings, rivals.
+  std::string fingerprint(const GapOptions& o) const {
+    std::string text = inputs.provenance()["hashes"].dump();
+    for (const Observation& row : fit.rows)
+      text += fmt::format("{} {} {} {:.6g}|", row.apparatus, row.observable, conditions_text(row), row.u);
+    text += fmt::format("{}|{}|{}|{}|{}", fmt::join(o.without, ","), fmt::join(o.ignored, ","), o.runs_per_observation,
+                        o.no_discrepancy, o.extrapolate);
+    return sha256_of_text(text);
+  }
+};
+
+// The fit rows as a table.
+ReducedTable only_fit(const Question& q) {
+  ReducedTable fit = q.table;
+  fit.rows.clear();
+  fit.lines.clear();
+  const auto keep = Question::rows_of(q.table, "fit");
+  for (const Eigen::Index i : keep) {
+    fit.rows.push_back(q.table.rows[static_cast<std::size_t>(i)]);
+    fit.lines.push_back(q.table.lines[static_cast<std::size_t>(i)]);
+  }
+  fit.covariance = Eigen::MatrixXd(Eigen::MatrixXd(q.table.covariance)(keep, keep)).sparseView();
+  return fit;
+}
+
+json threshold_json(const Threshold& t) {
+  return {{"log_odds", t.log_odds}, {"low95", t.low95},         {"high95", t.high95},
+          {"draws", t.draws},       {"libraries", t.libraries}, {"seed", t.seed}};
+}
+
+json isolability_json(const Isolability& i, const Threshold& t, const std::string& fingerprint,
+                      const json& provenance) {
+  json j = {{"schema", 1}, {"effects", i.effects}};
+  j["detectability"] = json::object();
+  j["separation"] = json::object();
+  for (std::size_t a = 0; a < i.effects.size(); ++a) {
+    j["detectability"][i.effects[a]] = i.detectability[static_cast<Eigen::Index>(a)];
+    for (std::size_t b = 0; b < i.effects.size(); ++b)
+      if (a != b)
+        j["separation"][i.effects[a]][i.effects[b]] =
+            i.separation(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(b));
+  }
+  j["groups"] = i.groups;
+  j["detectable"] = json::array();
+  for (const std::string& e : i.effects)
+    if (i.detectable(e)) j["detectable"].push_back(e);
+  j["threshold"] = threshold_json(t);
+  j["fingerprint"] = fingerprint;
+  j["provenance"] = provenance;
+  return j;
+}
+
+Threshold threshold_of(const GapOptions& o, const Question& q) {
+  if (o.sealed.empty()) return q.threshold(o);
+  if (!seal_holds(o.sealed)) throw BadInput(o.sealed, 0, "is not what its seal says", "bring the sealed file back");
+  std::ifstream in(o.sealed);
+  const json j = json::parse(in, nullptr, false);
+  if (j.is_discarded() || !j.contains("threshold"))
+    throw BadInput(o.sealed, 0, "is no isolability.json", "make it with vielto gap isolability");
+  if (j["fingerprint"] != q.fingerprint(o))
+    throw BadInput(o.sealed, 0, "was sealed for other rows, u, effects or another library",
+                   "seal it again before the data");
+  const json& t = j["threshold"];
+  return {t["log_odds"], t["low95"], t["high95"], t["draws"], t["libraries"], t["seed"]};
+}
+
+void write_json(const fs::path& path, const json& j) { write_whole_file(path.string(), j.dump(2) + "\n"); }
+
+void run_isolability(const GapOptions& o) {
+  const Question q(o);
+  const Isolability i = isolability(q.fit, q.inputs.settings);
+  const json j = isolability_json(i, q.threshold(o), q.fingerprint(o), q.inputs.provenance());
+  if (!o.out.empty()) {
+    fs::create_directories(o.out);
+    const fs::path out(o.out);
+    write_json(out / "isolability.json", j);
+    seal((out / "isolability.json").string());
+    write_whole_file((out / "isolability.csv").string(), isolability_csv(i));
+    write_whole_file((out / "isolability.svg").string(), isolability_svg(i));
+  }
+  for (std::size_t a = 0; a < i.effects.size(); ++a)
+    fmt::print("{:<18} {:>6.1f} sd from nothing{}\n", i.effects[a], i.detectability[static_cast<Eigen::Index>(a)],
+               i.detectable(i.effects[a]) ? "" : "  not detectable");
+  for (const auto& group : i.groups)
+    if (group.size() > 1) fmt::print("not told apart: {}\n", fmt::join(group, ", "));
+  for (const std::string& note : q.model.notes) fmt::print("note: {}\n", note);
+}
+
+std::string title_of(const GapOptions& o) {
+  return "Gap between simulation and measurement: " + fs::path(o.table).filename().string();
+}
+
+Diagnosis diagnosis_of(const GapOptions& o, const Question& q, const Isolability& i) {
+  Diagnosis d = diagnose(q.model, threshold_of(o, q), q.inputs.settings);
+  if (d.check_rows == 0) d.notes.push_back("the table has no check rows: how far the gap shrinks cannot be proved");
+  d.predicted = predicted_shrink(q.model, d, i);
+  if (d.verdict == "ambiguous" || d.verdict == "unknown")
+    d.next_tests = next_tests(q.inputs, only_fit(q), o.emulator(), d, o.candidate_file(), o.without, d.notes);
+  return d;
+}
+
+json provenance_of(const GapOptions& o, const Question& q) {
+  json p = q.inputs.provenance();
+  p["hashes"][fs::path(o.table).filename().string()] = sha256_of_file(o.table);
+  if (!q.table.covariance_path.empty())
+    p["hashes"][fs::path(q.table.covariance_path).filename().string()] = sha256_of_file(q.table.covariance_path);
+  p["seeds"] = {o.seed};
+  p["without"] = o.without;
+  p["fingerprint"] = q.fingerprint(o);
+  p["commands"] = json::array();
+  return p;
+}
+
+void write_answer(const GapOptions& o, const Diagnosis& d, const json& provenance) {
+  const json j = diagnosis_json(d, provenance);
+  fs::create_directories(o.out);
+  const std::string page = diagnosis_page(j, title_of(o));
+  write_json(fs::path(o.out) / "diagnosis.json", j);
+  write_whole_file((fs::path(o.out) / "diagnosis.html").string(), page);
+  fmt::print("{}\n", verdict_sentence(d));
+  for (const std::string& note : d.notes) fmt::print("note: {}\n", note);
+}
+
+void run_diagnose(const GapOptions& o) {
+  const Question q(o);
+  const Isolability i = isolability(q.fit, q.inputs.settings);
+  write_answer(o, diagnosis_of(o, q, i), provenance_of(o, q));
+}
+
+void run_confirm(const GapOptions& o) {
+  const Question q(o);
+  if (Question::rows_of(q.table, "check").empty())
+    throw BadInput(o.table, 0, "holds no row of role check", "mark held-out tests: the shrink is measured on them");
+  const Isolability i = isolability(q.fit, q.inputs.settings);
+  Diagnosis d = diagnosis_of(o, q, i);
+  json provenance = provenance_of(o, q);
+  if (d.verdict == "no_gap") {
+    write_answer(o, d, provenance);
+    return;
+  }
+  const Plan plan = plan_confirmation(q.inputs, q.model, d, i, o.rig_file(), o.root,
+                                      o.runs.empty() ? (fs::path(o.out) / "runs").string() : o.runs, o.seeds, o.vars);
+  for (const PlannedRun& run : plan.runs)
+    provenance["commands"].push_back(fmt::format("{}", fmt::join(run.command, " ")));
+  if (!o.run) {
+    for (const PlannedRun& run : plan.runs) fmt::print("{}\n", command_line(run));
+    return;
+  }
+  // The prediction is on record before the runs begin.
+  write_answer(o, d, provenance);
+  run_plan(plan);
+  d.shrink = measured_shrink(plan, q.inputs, q.model);
+  write_answer(o, d, provenance);
+}
+
+void run_next(const GapOptions& o) {
+  const Question q(o);
+  Diagnosis d = diagnose(q.model, threshold_of(o, q), q.inputs.settings);
+  d.next_tests = next_tests(q.inputs, only_fit(q), o.emulator(), d, o.candidate_file(), o.without, d.notes);
+  fmt::print("{}\n{:<22}{:>7}{:>10}{:>10}{:>12}  separates\n", verdict_sentence(d), "test", "hours", "sd now",
+             "sd then", "sd an hour");
+  for (const NextTest& t : d.next_tests)
+    fmt::print("{:<22}{:>7.1f}{:>10.2f}{:>10.2f}{:>12.2f}  {}\n", t.name, t.hours, t.separation_now, t.separation,
+               t.gain_per_hour, t.separates);
+  for (const std::string& note : d.notes) fmt::print("note: {}\n", note);
+}
+
+void run_discrepancy(const GapOptions& o) {
+  const Inputs inputs(o.files);
+  std::map<std::pair<std::string, std::string>, std::vector<LawDifference>> laws;
+  for (const std::string& path : o.tables)
+    for (auto& [name, difference] : inputs.emulator.differences(read_reduced_table(path), o.emulator()))
+      laws[name].push_back(std::move(difference));
+  std::vector<DiscrepancyEntry> entries;
+  for (const auto& [name, differences] : laws)
+    entries.push_back({name.first, name.second, estimate_discrepancy(differences)});
+  write_discrepancies(o.out, entries);
+}
+
+}  // namespace
+
+void add_gap_command(CLI::App& app) {
+  auto o = std::make_shared<GapOptions>();
+  CLI::App* gap =
+      app.add_subcommand("gap", "why simulation and measurement disagree: which effect, where, how far it closes");
+  gap->require_subcommand(1);
+  const auto common = [&](CLI::App* c) {
+    c->add_option("--library", o->files.library, "response library (gap/library/)")->required();
+    c->add_option("--effects", o->files.effects, "folder of effect files; without it effects/ beside the library");
+    c->add_option("--settings", o->files.settings, "without it diagnosis.toml beside the library");
+    c->add_option("--ignore", o->ignored, "conditions that need not agree with the library, such as moisture,wall")
+        ->delimiter(',');
+    c->add_flag("--extrapolate", o->extrapolate, "outside the library's conditions: flagged, not refused");
+  };
+  const auto question = [&](CLI::App* c) {
+    c->add_option("TABLE", o->table, "observation table")->required();
+    common(c);
+    c->add_option("--only", o->only, "rows that satisfy this only, such as wall=B (repeatable)");
+    c->add_option("--without", o->without, "effects that are no candidates")->delimiter(',');
+    c->add_option("--runs-per-observation", o->runs_per_observation,
+                  "how many independent runs an observed value is the mean of; 0: u holds their scatter already")
+        ->check(CLI::NonNegativeNumber)
+        ->capture_default_str();
+    c->add_flag("--no-discrepancy", o->no_discrepancy, "leave the law discrepancy out (more false alarms)");
+    c->add_option("--seed", o->seed, "of the bootstrap")->capture_default_str();
+    c->add_option("--draws", o->draws, "of the bootstrap; without it those of the settings")
+        ->check(CLI::PositiveNumber);
+  };
+  const auto answer = [&](CLI::App* c) {
+    c->add_option("--sealed", o->sealed, "isolability.json, sealed before the data: its threshold is taken");
+    c->add_option("--candidates", o->candidates, "candidate tests; without it next_tests.toml beside the settings");
+  };
+
+  CLI::App* isolability_command = gap->add_subcommand(
+      "isolability",
+      "before any data: which effects these tests can tell apart\n"
+      "The table's conditions and u count, its values do not. Writes isolability.json (sealed), .csv and .svg.");
+  question(isolability_command);
+  isolability_command->add_option("--out", o->out, "folder for the answer");
+  isolability_command->callback([o] { run_isolability(*o); });
+
+  CLI::App* diagnose_command =
+      gap->add_subcommand("diagnose",
+                          "what explains the gap: diagnosis.json and diagnosis.html\n"
+                          "Example: vielto gap diagnose measured.csv --library gap/library --out answer");
+  question(diagnose_command);
+  answer(diagnose_command);
+  diagnose_command->add_option("--out", o->out, "folder for the answer")->required();
+  diagnose_command->callback([o] { run_diagnose(*o); });
+
+  CLI::App* confirm_command = gap->add_subcommand(
+      "confirm",
+      "the check tests simulated again with the effect: prints the commands, or runs them (--run) and resumes");
+  question(confirm_command);
+  answer(confirm_command);
+  confirm_command->add_option("--out", o->out, "folder for the answer")->required();
+  confirm_command->add_option("--rigs", o->rigs, "how a test becomes a run; without it rigs.toml beside the settings");
+  confirm_command->add_option("--root", o->root, "folder that holds cases/ and materials/")->capture_default_str();
+  confirm_command->add_option("--runs", o->runs, "where the run folders go; without it OUT/runs");
+  confirm_command->add_option("--seeds", o->seeds, "runs of each")->check(CLI::Range(1, 1000))->capture_default_str();
+  confirm_command->add_option("--var", o->vars, "NAME=VALUE for all runs, such as grainDiameter=0.012 (repeatable)");
+  confirm_command->add_flag("--run", o->run, "run them, then write the measured shrink");
+  confirm_command->callback([o] { run_confirm(*o); });
+
+  CLI::App* next_command = gap->add_subcommand("next", "the next test that separates best per hour");
+  question(next_command);
+  answer(next_command);
+  next_command->callback([o] { run_next(*o); });
+
+  CLI::App* discrepancy_command = gap->add_subcommand(
+      "discrepancy", "law discrepancy from development laws: one observation table a law, runs without an effect");
+  common(discrepancy_command);
+  discrepancy_command->add_option("TABLE", o->tables, "observation tables, one for each law")->required();
+  discrepancy_command->add_option("--out", o->out, "discrepancy.csv to write")->required();
+  discrepancy_command->callback([o] { run_discrepancy(*o); });
+}
+
+}  // namespace vielto
