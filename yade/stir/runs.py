@@ -45,7 +45,8 @@ def meshes(case, folder):
     (folder / "drum.stl").write_text(drum.stl("drum", drum.drum(case)))
 
 
-def liggghts(program, case, folder, grains, turning):
+def liggghts_files(case, folder, grains, turning):
+    """case.par, properties and grains.data for in.drum."""
     full = dict(dict.fromkeys(mapping.PROPERTIES["vielto"], 0), **case["material"])
     (folder / "properties").write_text("".join(
         f"fix {name} all property/global {name} peratomtype {value!r} {value!r}\n" for name, value in full.items()))
@@ -59,6 +60,10 @@ def liggghts(program, case, folder, grains, turning):
     atoms = "".join(f"{i + 1} 1 {2 * case['radius']!r} {case['density']} {p[0]!r} {p[1]!r} {p[2]!r}\n"
                     for i, p in enumerate(grains.tolist()))
     (folder / "grains.data").write_text(f"drum\n\n{len(grains)} atoms\n2 atom types\n\n{box}\nAtoms\n\n{atoms}")
+
+
+def liggghts(program, case, folder, grains, turning):
+    liggghts_files(case, folder, grains, turning)
     start_program([program, "-in", HERE / "in.drum"], folder)
     lines = (folder / "bed.dump").read_text().split("ITEM: ATOMS")[-1].splitlines()[1:]
     end = numpy.array([[float(w) for w in line.split()[1:]] for line in lines])
@@ -73,12 +78,16 @@ def liggghts(program, case, folder, grains, turning):
     return numpy.column_stack([pick("turn"), pick("rotor_Nm"), shape])
 
 
+def yade_run(case, folder, grains):
+    """What stir.py needs."""
+    return {"materials": yade_materials(case), "grains": grains.tolist(), "radius": case["radius"],
+            "rotor": drum.rotor(case), "drum": drum.drum(case), "speed": case["speed"], "dt": time_step(case),
+            "rows": round(case["turns"] * case["rowsPerTurn"]), "stepsPerRow": case["stepsPerRow"],
+            "gravity": case["gravity"], "out": str(folder / "rows"), "end": str(folder / "end")}
+
+
 def yade(program, case, folder, grains):
-    run = {"materials": yade_materials(case), "grains": grains.tolist(), "radius": case["radius"],
-           "rotor": drum.rotor(case), "drum": drum.drum(case), "speed": case["speed"], "dt": time_step(case),
-           "rows": round(case["turns"] * case["rowsPerTurn"]), "stepsPerRow": case["stepsPerRow"],
-           "gravity": case["gravity"], "out": str(folder / "rows"), "end": str(folder / "end")}
-    (folder / "run.json").write_text(json.dumps(run))
+    (folder / "run.json").write_text(json.dumps(yade_run(case, folder, grains)))
     start_program([program, "-n", "-x", "-j1", HERE / "stir.py", "run.json"], folder)
     check_all_there(case, numpy.loadtxt(folder / "end"), "yade")
     return numpy.loadtxt(folder / "rows")

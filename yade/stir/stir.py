@@ -6,18 +6,15 @@ Writes to `out` a row of means every `stepsPerRow` steps: turn, torque on the ro
 the grains' y, z, y^2, z^2, y z; and to `end` the places of the grains.
 """
 import json
+import pathlib
 import sys
-import time
 
 import numpy
 
-run = json.load(open(sys.argv[1]))
-grain, wall = [O.materials.append(ViscElMat(**m)) for m in run["materials"]]
-grains = [O.bodies.append(utils.sphere(x, run["radius"], material=grain)) for x in run["grains"]]
-rotor = [O.bodies.append(utils.facet(t, dynamic=False, fixed=True, material=wall)) for t in run["rotor"]]
-for t in run["drum"]:
-    O.bodies.append(utils.facet(t, fixed=True, material=wall))
+sys.path.insert(0, str(pathlib.Path(sys.argv[0]).resolve().parent))
+from scene import build  # noqa: E402
 
+run = json.load(open(sys.argv[1]))
 out = open(run["out"], "w")
 torques, shapes = [], []
 
@@ -43,21 +40,11 @@ def row():
 
 
 every = run["stepsPerRow"]
-O.dt = run["dt"]
-O.engines = [
-    ForceResetter(),
-    InsertionSortCollider([Bo1_Sphere_Aabb(), Bo1_Facet_Aabb()], verletDist=0.3 * run["radius"]),
-    InteractionLoop([Ig2_Sphere_Sphere_ScGeom(avoidGranularRatcheting=False), Ig2_Facet_Sphere_ScGeom()],
-                    [Ip2_ViscElMat_ViscElMat_ViscElPhys()], [Law2_ScGeom_ViscElPhys_Basic()]),
-    # here the forces belong to the places
+grains, rotor = build(run, look=[
     PyRunner(command="torque()", iterPeriod=8, firstIterRun=7),
     PyRunner(command="shape()", iterPeriod=every // 4, firstIterRun=every // 4 - 1),
     PyRunner(command="row()", iterPeriod=every, firstIterRun=every - 1),
-    RotationEngine(ids=rotor, rotationAxis=(1, 0, 0), angularVelocity=2 * numpy.pi * run["speed"], rotateAroundZero=True,
-                   zeroPoint=(0, 0, 0)),
-    NewtonIntegrator(damping=0, gravity=(0, 0, -run["gravity"])),
-]
-begin = time.time()
+])
 O.run(run["rows"] * every, wait=True)
 numpy.savetxt(run["end"], [O.bodies[b].state.pos for b in grains])
 out.close()
