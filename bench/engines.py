@@ -12,6 +12,13 @@ BIN = ROOT / "build" / "bin"
 ENV = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1", OMP_NUM_THREADS="1")
 
 
+def build(packages=()):
+    """What the benchmark needs; `packages`: lists in scripts/packages beyond those of every part."""
+    subprocess.run([ROOT / "scripts" / "install-packages", "demo", "bench", *packages], check=True)
+    subprocess.run([ROOT / "scripts" / "build", "release", "vielto", "vielto_run", "vielto_bench", "vielto_triad"], check=True,
+                   stdout=subprocess.DEVNULL)
+
+
 def command(script, ranks, variables):
     words = [str(BIN / "vielto_bench"), "-in", str(script), "-var", "bench", str(ROOT / "bench")]
     for name, value in variables.items():

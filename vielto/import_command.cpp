@@ -22,6 +22,7 @@
 #include "observation_table.h"
 #include "sampled_torque.h"
 #include "sphere_file.h"
+#include "steady_part.h"
 #include "whole_shaft.h"
 
 namespace vielto {
