@@ -29,7 +29,7 @@ std::string content(const fs::path& path) {
 
 // What plot.saveDataTxt writes: names after '#', tabs, one row a call.
 struct YadePlot {
-  double mean = 2, swing = 0.5, noise = 0.05, start_up = 0, turns = 8, speed = 1.25, per_turn = 50;
+  double mean = 2, swing = 0.5, noise = 0.05, start_up = 0, drift = 0, turns = 8, speed = 1.25, per_turn = 50;
   std::string names = "# Tx\t\ti\t\tt\n", extra;  // extra: a line in the middle
   bool nan_rows = false;
   std::string text() const {
@@ -41,7 +41,7 @@ struct YadePlot {
     const int rows = static_cast<int>(std::lround(turns * per_turn));
     for (int i = 0; i <= rows; ++i) {
       const double turn = i / per_turn;
-      const double torque = mean + swing * std::cos(2 * kPi * 4 * turn) + start_up * std::exp(-2 * turn) + noise * normal(random);
+      const double torque = mean + swing * std::cos(2 * kPi * 4 * turn) + drift * turn + start_up * std::exp(-2 * turn) + noise * normal(random);
       out << torque << "\t" << 100 * i << "\t" << turn / speed << "\n";
       if (nan_rows) out << "nan\t" << 100 * i + 50 << "\t" << (turn + 0.5 / per_turn) / speed << "\n";
       if (i == rows / 2) out << extra;
@@ -234,7 +234,7 @@ TEST_F(ImportYade, RefusesBadInputInOneLine) {
   refuses("--torque none.txt --torque-column Tx --speed 1", "none.txt: cannot be read");
   refuses("--torque plot.txt --torque-column Ty --speed 1", "has no column 'Ty'; choose from Tx, i, t");
   refuses("--torque plot.txt --torque-column Tx --time-column i --speed 1", "is 1e+02 turns after line");
-  refuses(torque_ + "--torque-factor -1", "has the mean -2 N m");
+  refuses(torque_ + "--torque-factor -1", "column Tx: has the mean -");
   refuses(torque_ + "--turns 9", "has 8 whole turns, and 9 steady ones are asked for; run at least 1 more");
   refuses(torque_ + "--start -5", "--start");
   refuses("--bed plot.txt", "--bed makes no observation");
@@ -251,9 +251,9 @@ TEST_F(ImportYade, RefusesBadInputInOneLine) {
   write("plot.txt", broken.text());
   refuses(torque_, "plot.txt, line 204, column t: does not rise after line 203");
   YadePlot drifting;
-  drifting.start_up = 5, drifting.turns = 3;
+  drifting.drift = 0.1;
   write("plot.txt", drifting.text());
-  refuses(torque_, "3 whole turns");
+  refuses(torque_, "has 8 whole turns, the start-up still shows in turn 4");
   write("plot.txt", "1 2 3\n");
   refuses(torque_, "line 1: begins with numbers");
   write("plot.txt", std::string("BZh9\x31\x41\x59\x00", 8));

@@ -52,26 +52,27 @@ Estimate surface_angle(const std::vector<Grain>& grains, BedAxes axes, std::opti
     radius += g.radius / static_cast<double>(grains.size());
   }
   if (!window) window = {0.75 * low + 0.25 * high, 0.25 * low + 0.75 * high};
-  const auto strips = static_cast<std::size_t>((window->second - window->first) / (kStripRadii * radius));
-  const double nothing = -std::numeric_limits<double>::infinity();
-  std::vector<double> top(strips, nothing);
+  // a window of whole strips has them whatever the rounding
+  const auto strips = static_cast<std::size_t>((window->second - window->first) / (kStripRadii * radius) + 1e-9);
+  std::vector<const Grain*> highest(strips, nullptr);
   const double width = (window->second - window->first) / static_cast<double>(std::max<std::size_t>(strips, 1));
+  const auto top = [&](const Grain& g) { return g.x[axes.up] + g.radius; };
   for (const Grain& g : grains) {
     const double place = (g.x[axes.across] - window->first) / width;
     if (place < 0 || place >= static_cast<double>(strips)) continue;
-    double& height = top[static_cast<std::size_t>(place)];
-    height = std::max(height, g.x[axes.up] + g.radius);
+    const Grain*& best = highest[static_cast<std::size_t>(place)];
+    if (!best || top(g) > top(*best)) best = &g;
   }
   double n = 0, h = 0, v = 0;
-  for (std::size_t i = 0; i < strips; ++i)
-    if (top[i] > nothing) ++n, h += (static_cast<double>(i) + 0.5) * width, v += top[i];
+  for (const Grain* g : highest)
+    if (g) ++n, h += g->x[axes.across], v += top(*g);
   if (n < kLeastStrips) throw std::invalid_argument("the surface in the window is less than four strips of three radii wide");
   h /= n;
   v /= n;
   double hh = 0, hv = 0, vv = 0;
-  for (std::size_t i = 0; i < strips; ++i) {
-    if (!(top[i] > nothing)) continue;
-    const double dh = (static_cast<double>(i) + 0.5) * width - h, dv = top[i] - v;
+  for (const Grain* g : highest) {
+    if (!g) continue;
+    const double dh = g->x[axes.across] - h, dv = top(*g) - v;
     hh += dh * dh;
     hv += dh * dv;
     vv += dv * dv;
