@@ -9,7 +9,7 @@ import subprocess
 import sys
 
 import packing
-from engines import BIN, ROOT, Engine, Lammps, Yade, make_bed
+from stepping import BIN, ROOT, Engine, Lammps, Yade, make_bed
 
 # What the law has to move, at least: of a contact its seven history values read and written, its touch flag read and
 # written, the neighbour's index; of a grain x, v, omega, radius, mass, type once, force and torque read and written.
@@ -76,7 +76,7 @@ def yade(folder, quick, pairs):
     bed = runs.liggghts(str(BIN / "liggghts"), case, where, grains, turning=False)
     runs.liggghts_files(case, where, bed, turning=True)
     (where / "run.json").write_text(json.dumps(runs.yade_run(case, where, bed)))
-    ours, theirs = Engine(folder, script="in.stirred"), Yade(folder)
+    ours, theirs = Engine(folder, script="../yade/stir/in.drum", turning=2), Yade(folder)
     quarter = round(case["rowsPerTurn"] * case["stepsPerRow"] / (16 if quick else 4))
     ours.step(quarter), theirs.step(quarter)
     faster, a, b = [], [], []

@@ -71,7 +71,7 @@ def random_grains(case, seed):
     low = [0, -1.05 * case["drum"]["radius"], -1.05 * case["drum"]["radius"]]
     high = [case["drum"]["length"], -low[1], -low[2]]
     grains = numpy.empty((0, 3))
-    for _ in range(400):
+    for _ in range(60):
         tried = random.uniform(low, high, (2000, 3))
         tried = tried[inside(case, tried, room) & off_blades(case, tried, room)]
         for p in tried:
