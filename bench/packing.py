@@ -7,16 +7,16 @@ import random
 D, DENSITY, E, RATIO, ANGLE, DAMPING = 0.008, 1375, 1e6, 0.5, 25, 0.3
 
 
-def write(folder, cells):
-    """packing.data and packing.par for liggghts and LAMMPS; the number of grains, 2 cells^3."""
+def write(folder, cells, copies=1):
+    """packing.data and packing.par for liggghts and LAMMPS; the number of grains, 2 cells^3 times the copies along x."""
     edge = 0.995 * D * 2 / math.sqrt(3)
     roll = random.Random(1)
-    places = [(i + h, j + h, k + h) for i in range(cells) for j in range(cells) for k in range(cells) for h in (0, 0.5)]
+    places = [(i + h, j + h, k + h) for i in range(copies * cells) for j in range(cells) for k in range(cells) for h in (0, 0.5)]
     mass = DENSITY * math.pi / 6 * D**3
     kn = E * D
     v = 0.02  # m/s: enough that contacts slide and come back, too little to melt the lattice
     with open(pathlib.Path(folder, "packing.data"), "w") as out:
-        box = "".join(f"0 {cells * edge!r} {a}lo {a}hi\n" for a in "xyz")
+        box = "".join(f"0 {n * cells * edge!r} {a}lo {a}hi\n" for a, n in zip("xyz", (copies, 1, 1)))
         out.write(f"packing\n\n{len(places)} atoms\n1 atom types\n\n{box}\nAtoms\n\n")
         for n, p in enumerate(places):
             out.write(f"{n + 1} 1 {D} {DENSITY} " + " ".join(f"{(q + 0.25) * edge:.9g}" for q in p) + "\n")
