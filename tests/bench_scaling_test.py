@@ -14,7 +14,7 @@ def rows(kind):
         d = 0.2 / grains**(1 / 3)
         ghosts = 2 * grains / length * 1.25 * d
         for ranks in (1, 2):
-            t = C0 + C * grains / ranks + (H * ghosts + L if ranks > 1 else 0)
+            t = C0 + C * grains / ranks + H * ghosts + L * (ranks > 1)
             yield {"kind": kind, "grains": grains, "ghosts": ghosts, "ranks": ranks, "us_per_step": {"median": t, "low": t, "high": t}}
 
 
