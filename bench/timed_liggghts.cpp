@@ -148,7 +148,10 @@ int main(int argc, char** argv) {
     // after LIGGGHTS has registered its own, which would replace ours
     using Ours = GranStyle<VIELTO, TANGENTIAL_VIELTO, COHESION_OFF, ROLLING_VIELTO, SURFACE_DEFAULT>;
     using Stock = GranStyle<HOOKE_STIFFNESS, TANGENTIAL_HISTORY, COHESION_OFF, ROLLING_EPSD2, SURFACE_DEFAULT>;
+    // without rolling, for the comparison with Yade
+    using Plain = GranStyle<VIELTO, TANGENTIAL_VIELTO, COHESION_OFF, ROLLING_OFF, SURFACE_DEFAULT>;
     replace<Ours, vielto::FastPair<Ours>>();
+    replace<Plain, vielto::FastPair<Plain>>();
     replace<Stock, PairStyles::Granular<ContactModel<Stock>>>();
     lammps.input->file();
     if (lammps.comm->me == 0) printf("READY\n"), fflush(stdout);

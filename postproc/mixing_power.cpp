@@ -22,43 +22,10 @@ Signal sum(const Signal& a, double factor, const Signal& b) {
   return result;
 }
 
-MeanUncertainty mean_over(const Signal& signal, const AveragedTurns& turns) {
-  const auto begin = signal.begin() + static_cast<std::ptrdiff_t>(turns.first) * kPhases;
-  return mean_uncertainty(Signal(begin, begin + static_cast<std::ptrdiff_t>(turns.count) * kPhases), kPhases);
-}
-
 MeanUncertainty scaled(MeanUncertainty m, double factor) {
   m.mean *= factor;
   m.u *= std::fabs(factor);
   return m;
-}
-
-AveragedTurns steady_turns(const TorqueRecord& record, const Signal& signal, int asked) {
-  const SteadyPart part = find_steady_part(signal, kPhases, asked);
-  const auto refuse = [&](const std::string& why, int more) {
-    throw BadInput(record.path, 0,
-                   fmt::format("has {} whole turn{}{}, and {} steady ones are asked for", record.turns,
-                               record.turns == 1 ? "" : "s", why, asked),
-                   fmt::format("run at least {} more", more));
-  };
-  double mean = 0;
-  if (part.count > 0)
-    mean = std::accumulate(signal.begin() + static_cast<std::ptrdiff_t>(part.first) * kPhases, signal.end(), 0.0) /
-           (static_cast<double>(part.count) * kPhases);
-  switch (part.verdict) {
-    case Steadiness::too_few_turns:
-      refuse("", asked - record.turns);
-      break;
-    case Steadiness::start_up_reaches_limit:
-      refuse(fmt::format(", the start-up still shows in turn {}", record.first_turn + part.first), part.first + 1);
-      break;
-    case Steadiness::trend:
-      refuse(fmt::format(", the last {} still drift by {:+.2g} % a turn", part.count, 100 * part.slope / mean), asked);
-      break;
-    case Steadiness::steady:
-      break;
-  }
-  return {part.first, part.count, part.slope / mean, part.slope_p};
 }
 
 void check_idle(const TorqueRecord& record, const AveragedTurns& turns) {
@@ -121,6 +88,40 @@ RunQuality run_quality(const TorqueRecord& r, const AveragedTurns& turns, const 
 
 }  // namespace
 
+MeanUncertainty mean_over(const std::vector<double>& signal, const AveragedTurns& turns) {
+  const auto begin = signal.begin() + static_cast<std::ptrdiff_t>(turns.first) * kPhases;
+  return mean_uncertainty(std::vector<double>(begin, begin + static_cast<std::ptrdiff_t>(turns.count) * kPhases), kPhases);
+}
+
+AveragedTurns steady_turns(const std::string& path, int first_turn, const std::vector<double>& signal, int asked) {
+  const int turns = static_cast<int>(signal.size()) / kPhases;
+  const SteadyPart part = find_steady_part(signal, kPhases, asked);
+  const auto refuse = [&](const std::string& why, int more) {
+    throw BadInput(path, 0,
+                   fmt::format("has {} whole turn{}{}, and {} steady ones are asked for", turns,
+                               turns == 1 ? "" : "s", why, asked),
+                   fmt::format("run at least {} more", more));
+  };
+  double mean = 0;
+  if (part.count > 0)
+    mean = std::accumulate(signal.begin() + static_cast<std::ptrdiff_t>(part.first) * kPhases, signal.end(), 0.0) /
+           (static_cast<double>(part.count) * kPhases);
+  switch (part.verdict) {
+    case Steadiness::too_few_turns:
+      refuse("", asked - turns);
+      break;
+    case Steadiness::start_up_reaches_limit:
+      refuse(fmt::format(", the start-up still shows in turn {}", first_turn + part.first), part.first + 1);
+      break;
+    case Steadiness::trend:
+      refuse(fmt::format(", the last {} still drift by {:+.2g} % a turn", part.count, 100 * part.slope / mean), asked);
+      break;
+    case Steadiness::steady:
+      break;
+  }
+  return {part.first, part.count, part.slope / mean, part.slope_p};
+}
+
 MixingPower mixing_power(const TorqueRecord& loaded, const TorqueRecord* idle, int turns) {
   const TorqueRecordHeader& h = loaded.header;
   if (h.fill == 0)
@@ -130,7 +131,7 @@ MixingPower mixing_power(const TorqueRecord& loaded, const TorqueRecord* idle, i
   result.turns_total = loaded.turns;
   const double scale = h.whole_drum();
   const Signal rotor = loaded.rotor();
-  const AveragedTurns averaged = steady_turns(loaded, rotor, turns);
+  const AveragedTurns averaged = steady_turns(loaded.path, loaded.first_turn, rotor, turns);
   result.averaged = averaged;
   result.turn_first = loaded.first_turn + averaged.first;
 
@@ -150,7 +151,7 @@ MixingPower mixing_power(const TorqueRecord& loaded, const TorqueRecord* idle, i
       throw BadInput(idle->path, 0,
                      fmt::format("idles at {} 1/s, the loaded record ran at {} 1/s", idle->header.speed, h.speed),
                      "give an idling record of the same speed");
-    const AveragedTurns idling = steady_turns(*idle, idle->idle, turns);
+    const AveragedTurns idling = steady_turns(idle->path, idle->first_turn, idle->idle, turns);
     check_idle(*idle, idling);
     check_idle(loaded, averaged);
     // The idling torque is the whole machine's, whatever slice of the grains was simulated.

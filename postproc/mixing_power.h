@@ -73,6 +73,13 @@ struct MixingPower {
   RunQuality quality;
 };
 
+// The steady turns of a signal of kPhases values a turn, `asked` at least; the record began at turn `first_turn`.
+// Errors: BadInput naming `path` if there are not that many; it says how many more to run.
+AveragedTurns steady_turns(const std::string& path, int first_turn, const std::vector<double>& signal, int asked);
+
+// Mean of a signal of kPhases values a turn over these turns.
+MeanUncertainty mean_over(const std::vector<double>& signal, const AveragedTurns& turns);
+
 // `turns` asked for, at least 3.
 MixingPower mixing_power(const TorqueRecord& loaded, const TorqueRecord* idle, int turns);
 

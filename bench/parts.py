@@ -1,0 +1,164 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""The parts of the benchmark. Each takes (folder, quick, pairs) and returns what it adds to the results."""
+import json
+import math
+import os
+import pathlib
+import statistics
+import subprocess
+import sys
+
+import packing
+from stepping import BIN, ROOT, Engine, Lammps, Yade, make_bed
+
+# What the law has to move, at least: of a contact its seven history values read and written, its touch flag read and
+# written, the neighbour's index; of a grain x, v, omega, radius, mass, type once, force and torque read and written.
+CONTACT_BYTES = 2 * 7 * 8 + 2 * 4 + 4
+GRAIN_BYTES = 11 * 8 + 4 + 2 * 6 * 8
+
+
+def law_time(t):
+    return t["pair_s"] + t["wall_s"]
+
+
+def spread(values):
+    """Median and its 95 % interval by order statistics."""
+    ordered = sorted(values)
+    n = len(ordered)
+    k = max(0, math.floor(0.5 * n - 0.98 * math.sqrt(n)))
+    return {"median": statistics.median(ordered), "low": ordered[k], "high": ordered[n - 1 - k]}
+
+
+def law(folder, quick, pairs):
+    """ViElTo against the stock law with the same ingredients, in the mixer slice."""
+    bed = make_bed(folder, d=0.012 if quick else 0.008)
+    ours, stock = Engine(folder, law=1, **bed), Engine(folder, law=0, **bed)
+    law, step, contacts = [], [], []
+    for _ in range(pairs):
+        a, b = ours.step(100), stock.step(100)
+        law.append(law_time(a) / law_time(b))
+        step.append(a["run_s"] / b["run_s"])
+        contacts.append((a["pair_contacts"] + a["wall_contacts"]) / (b["pair_contacts"] + b["wall_contacts"]))
+    for engine in (ours, stock):
+        engine.quit()
+    nanoseconds = lambda t: 1e9 * law_time(t) / t["steps"] / (t["pair_contacts"] + t["wall_contacts"])
+    print(f"{a['grains']:.0f} grains, {a['pair_contacts']:.0f} + {a['wall_contacts']:.0f} contacts (stock "
+          f"{b['pair_contacts']:.0f} + {b['wall_contacts']:.0f}); last pair {nanoseconds(a):.0f} and {nanoseconds(b):.0f} ns a contact")
+    return {"contact_law_over_stock": spread(law), "step_over_stock": spread(step), "contacts_over_stock": spread(contacts)}
+
+
+def ranks(folder, quick, pairs):
+    """Two ranks against one; memory a grain, against a small bed."""
+    # a soft bed of many grains is made quickly; it is timed as it is
+    soft = dict(d=0.006, E=1e5) if quick else dict(d=0.0041, E=1e5)
+    small = Engine(folder, law=1, **make_bed(folder, turns=0.02, d=0.012, E=1e5), E=1e5)
+    few = (small.step(1)["grains"], small.memory)
+    small.quit()
+    bed = dict(make_bed(folder, turns=0.02, **soft), E=soft["E"])
+    one, two = Engine(folder, law=1, **bed), Engine(folder, ranks=2, law=1, **bed)
+    gain = [one.step(20)["run_s"] / two.step(20)["run_s"] for _ in range(pairs)]
+    many = (one.step(1)["grains"], one.memory)
+    for engine in (one, two):
+        engine.quit()
+    return {"ranks2_over_1": dict(spread(gain), grains=many[0]),
+            "bytes_per_grain": (many[1] - few[1]) * 1024**2 / (many[0] - few[0])}
+
+
+def yade(folder, quick, pairs):
+    """The stirred drum of yade/stir in both engines, one core each: how often as many particle-steps a second."""
+    sys.path[:0] = [str(ROOT / "yade/stir"), str(ROOT / "yade/contact")]
+    import drum
+    import runs
+    case = json.loads((ROOT / "yade/stir/case.json").read_text())
+    where = pathlib.Path(folder)
+    runs.meshes(case, where)
+    grains = drum.random_grains(case, 1)
+    bed = runs.liggghts(str(BIN / "liggghts"), case, where, grains, turning=False)
+    runs.liggghts_files(case, where, bed, turning=True)
+    (where / "run.json").write_text(json.dumps(runs.yade_run(case, where, bed)))
+    ours, theirs = Engine(folder, script="../yade/stir/in.drum", turning=2), Yade(folder)
+    quarter = round(case["rowsPerTurn"] * case["stepsPerRow"] / (16 if quick else 4))
+    ours.step(quarter), theirs.step(quarter)
+    faster, a, b = [], [], []
+    for _ in range(pairs):
+        a.append(ours.step(200)), b.append(theirs.step(50))
+        faster.append(b[-1]["run_s"] / b[-1]["steps"] / (a[-1]["run_s"] / a[-1]["steps"]))
+    for engine in (ours, theirs):
+        engine.quit()
+    mean = lambda ts, name: statistics.mean(t[name] for t in ts)
+    speed = lambda ts: statistics.median(case["grains"] * t["steps"] / t["run_s"] for t in ts)
+    return {"particle_steps_over_yade": dict(
+        spread(faster), grains=case["grains"], particle_steps_per_s=speed(a), yade_particle_steps_per_s=speed(b),
+        contacts=[mean(a, "pair_contacts"), mean(a, "wall_contacts")],
+        yade_contacts=[mean(b, "pair_contacts"), mean(b, "wall_contacts")])}
+
+
+def lammps(folder, quick, pairs):
+    """The distribution's LAMMPS with `pair_style granular` of the same ingredients, on a packing without walls."""
+    grains = packing.write(folder, 12 if quick else 24)
+    ours, theirs = Engine(folder, script="in.packing"), Lammps(folder)
+    ratio = [ours.step(50)["run_s"] / theirs.step(50)["run_s"] for _ in range(pairs)]
+    contacts, others = ours.step(1)["pair_contacts"], theirs.contacts()
+    for engine in (ours, theirs):
+        engine.quit()
+    return {"over_lammps": dict(spread(ratio), grains=grains, contacts=contacts, lammps_contacts=others)}
+
+
+def size(folder, quick, pairs):
+    """Cost of a grain and step against the number of grains, on the packing without walls."""
+    rows = []
+    for cells in (8, 17, 37) if quick else (8, 17, 37, 79):  # 10^3, 10^4, 10^5, 10^6 grains
+        grains = packing.write(folder, cells)
+        engine = Engine(folder, script="in.packing")
+        steps = max(2, round((1e5 if quick else 1e6) / grains))
+        took = [engine.step(steps) for _ in range(min(pairs, 15))]
+        engine.quit()
+        rows.append(dict(spread([1e9 * t["run_s"] / steps / grains for t in took]), grains=grains,
+                         contacts_per_grain=took[-1]["pair_contacts"] / grains))
+    return {"ns_per_particle_step_by_grains": rows}
+
+
+def triangles(folder, quick, pairs):
+    """Cost of a step in the mixer slice against the number of triangles of drum and shaft."""
+    beds, counts = [], []
+    for factor in (1, 4) if quick else (1, 2, 4, 8):
+        where = pathlib.Path(folder, f"mesh{factor}")
+        where.mkdir()
+        bed = make_bed(where, (f"drumSegments={12 * factor}", f"shaftSegments={6 * factor}"), turns=0.05, d=0.012, E=1e5)
+        counts.append(sum(p.read_text(errors="replace").count("endfacet") for p in pathlib.Path(where, "mesh").glob("*.stl")))
+        beds.append(Engine(where, law=1, **bed, E=1e5))
+    times = [[] for _ in beds]
+    for _ in range(pairs):
+        for engine, took in zip(beds, times):
+            took.append(engine.step(100))
+    for engine in beds:
+        engine.quit()
+    return {"us_per_step_by_triangles": [
+        dict(spread([1e6 * t["run_s"] / t["steps"] for t in took]), triangles=count, grains=took[-1]["grains"],
+             wall_share=statistics.median(t["wall_s"] / t["run_s"] for t in took)) for took, count in zip(times, counts)]}
+
+
+def memory(folder, quick, pairs):
+    """The law's time over the time that the bytes it must move would take at the bandwidth of a triad."""
+    grains = packing.write(folder, 30 if quick else 60)
+    engine = Engine(folder, script="in.packing")
+    ratio, bandwidth = [], []
+    for _ in range(min(pairs, 30)):
+        triad = json.loads(subprocess.run([BIN / "vielto_triad"], check=True, capture_output=True, text=True).stdout)
+        bandwidth.append(triad["bytes_per_s"])
+        t = engine.step(5)
+        bound = (t["pair_contacts"] * CONTACT_BYTES + grains * GRAIN_BYTES) / bandwidth[-1]
+        ratio.append(t["pair_s"] / t["steps"] / bound)
+    engine.quit()
+    return {"over_memory_bound": dict(spread(ratio), grains=grains, contacts=t["pair_contacts"],
+                                      bytes_per_contact=CONTACT_BYTES + GRAIN_BYTES * grains / t["pair_contacts"],
+                                      triad_bytes_per_s=statistics.median(bandwidth))}
+
+
+PARTS = {part.__name__: part for part in (law, ranks, yade, lammps, size, triangles, memory)}
+PACKAGES = {"yade": ["yade"], "lammps": ["lammps"]}  # lists in scripts/packages beyond those of every part
+
+
+def machine():
+    model = next((line.split(":", 1)[1].strip() for line in open("/proc/cpuinfo") if line.startswith("model name")), "unknown")
+    return {"cpu": model, "cores": os.cpu_count()}
