@@ -33,13 +33,15 @@ MeanUncertainty scaled(MeanUncertainty m, double factor) {
   return m;
 }
 
+// In blocks of turns, as the record has them; messages speak of turns.
 AveragedTurns steady_turns(const TorqueRecord& record, const Signal& signal, int asked) {
-  const SteadyPart part = find_steady_part(signal, kPhases, asked);
+  const int block = record.turns_per_block, turns = record.turns * block;
+  const SteadyPart part = find_steady_part(signal, kPhases, std::max(kLeastAveragedTurns, (asked + block - 1) / block));
   const auto refuse = [&](const std::string& why, int more) {
-    throw BadInput(record.path, 0,
-                   fmt::format("has {} whole turn{}{}, and {} steady ones are asked for", record.turns,
-                               record.turns == 1 ? "" : "s", why, asked),
-                   fmt::format("run at least {} more", more));
+    throw BadInput(
+        record.path, 0,
+        fmt::format("has {} whole turn{}{}, and {} steady ones are asked for", turns, turns == 1 ? "" : "s", why, asked),
+        fmt::format("run at least {} more", more));
   };
   double mean = 0;
   if (part.count > 0)
@@ -47,18 +49,20 @@ AveragedTurns steady_turns(const TorqueRecord& record, const Signal& signal, int
            (static_cast<double>(part.count) * kPhases);
   switch (part.verdict) {
     case Steadiness::too_few_turns:
-      refuse("", asked - record.turns);
+      refuse("", asked - turns);
       break;
     case Steadiness::start_up_reaches_limit:
-      refuse(fmt::format(", the start-up still shows in turn {}", record.first_turn + part.first), part.first + 1);
+      refuse(fmt::format(", the start-up still shows in turn {}", record.first_turn + part.first * block),
+             (part.first + 1) * block);
       break;
     case Steadiness::trend:
-      refuse(fmt::format(", the last {} still drift by {:+.2g} % a turn", part.count, 100 * part.slope / mean), asked);
+      refuse(fmt::format(", the last {} still drift by {:+.2g} % a turn", part.count * block, 100 * part.slope / mean / block),
+             asked);
       break;
     case Steadiness::steady:
       break;
   }
-  return {part.first, part.count, part.slope / mean, part.slope_p};
+  return {part.first, part.count, part.slope / mean / block, part.slope_p};
 }
 
 void check_idle(const TorqueRecord& record, const AveragedTurns& turns) {
@@ -127,12 +131,15 @@ MixingPower mixing_power(const TorqueRecord& loaded, const TorqueRecord* idle, i
     throw BadInput(loaded.path, 0, "is an idling record (fill 0)", "name a loaded record, and give this one to --idle");
   MixingPower result;
   result.header = h;
-  result.turns_total = loaded.turns;
+  const int block = loaded.turns_per_block;
+  result.turns_total = loaded.turns * block;
   const double scale = h.whole_drum();
   const Signal rotor = loaded.rotor();
   const AveragedTurns averaged = steady_turns(loaded, rotor, turns);
   result.averaged = averaged;
-  result.turn_first = loaded.first_turn + averaged.first;
+  result.averaged.first *= block;
+  result.averaged.count *= block;
+  result.turn_first = loaded.first_turn + result.averaged.first;
 
   result.torque = scaled(mean_over(rotor, averaged), scale);
   if (!(result.torque.mean > 0))

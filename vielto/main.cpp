@@ -14,6 +14,7 @@ int main(int argc, char** argv) {
   vielto::add_fit_command(app);
   vielto::add_predict_command(app);
   vielto::add_compare_command(app);
+  vielto::add_report_command(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
