@@ -131,10 +131,11 @@ Section provenance(const std::vector<std::pair<std::string, fs::path>>& runs, co
     Table facts{"Run" + of, {"what", "value"}, {}}, hashes{"SHA-256 of the inputs" + of, {"file", "hash"}, {}}, parameters{"Parameters" + of, {"name", "value"}, {}};
     for (const char* key : {"status", "command", "ranks"})
       if (j.contains(key)) facts.rows.push_back({key, in_words(j[key])});
-    const json none = json::object();
-    for (const auto& [key, value] : j.value("versions", none).items()) facts.rows.push_back({"version of " + key, in_words(value)});
-    for (const auto& [key, value] : j.value("hashes", none).items()) hashes.rows.push_back({key, in_words(value)});
-    for (const auto& [key, value] : j.value("parameters", none).items()) {
+    const auto entries = [&j](const char* key) { return j.contains(key) ? j[key] : json::object(); };
+    const json versions = entries("versions"), inputs = entries("hashes"), all = entries("parameters");
+    for (const auto& [key, value] : versions.items()) facts.rows.push_back({"version of " + key, in_words(value)});
+    for (const auto& [key, value] : inputs.items()) hashes.rows.push_back({key, in_words(value)});
+    for (const auto& [key, value] : all.items()) {
       if (key == "seed") facts.rows.push_back({"seed", in_words(value)});
       parameters.rows.push_back({key, in_words(value)});
     }
