@@ -29,7 +29,7 @@ Prediction predict_at(const DrawnEquation& e, const PowerPoint& p, double fill, 
   MixerDimensions mixer;
   mixer.lever = p.fr_m * kGravity / (p.speed * p.speed);
   BulkMaterial material;
-  material.bulk_cohesion = 1 / cohesive_power_number(p.n_pc / p.power, mixer.lever, p.speed, 1);
+  material.bulk_cohesion = cohesive_power_number(p.power / p.n_pc, mixer.lever, p.speed, 1);
   material.bulk_density = p.n_c / cohesion_number(mixer.lever, p.speed, 1, *material.bulk_cohesion);
   Groups groups = p.groups;
   const Groups own = groups_of(fill, speed, mixer, material, nullptr);

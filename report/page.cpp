@@ -4,10 +4,10 @@
 #include <fmt/format.h>
 #include <vtkBase64Utilities.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <set>
 #include <sstream>
 
 #include "bad_input.h"
@@ -54,16 +54,24 @@ std::string html(const Paragraph& p) {
   return fmt::format("<p{}>{}</p>\n", p.tone == Paragraph::Tone::warning ? " class=\"warning\"" : "", escaped(p.text));
 }
 
+// Set right: columns of numbers alone, and of what was not recorded.
+bool is_of_numbers(const Table& table, std::size_t column) {
+  return std::all_of(table.rows.begin(), table.rows.end(), [column](const auto& row) {
+    return row[column].empty() || row[column] == kNotRecorded || finite_number(row[column]);
+  });
+}
+
 std::string html(const Table& table) {
+  std::vector<const char*> looks;
+  for (std::size_t c = 0; c < table.columns.size(); ++c) looks.push_back(is_of_numbers(table, c) ? " class=\"number\"" : "");
   std::string text = "<div class=\"wide\"><table>\n";
   if (!table.caption.empty()) text += fmt::format("<caption>{}</caption>\n", escaped(table.caption));
   text += "<thead><tr>";
-  for (const std::string& name : table.columns) text += fmt::format("<th scope=\"col\">{}</th>", escaped(name));
+  for (std::size_t c = 0; c < table.columns.size(); ++c) text += fmt::format("<th scope=\"col\"{}>{}</th>", looks[c], escaped(table.columns[c]));
   text += "</tr></thead>\n<tbody>\n";
   for (const auto& row : table.rows) {
     text += "<tr>";
-    for (const std::string& cell : row)
-      text += fmt::format("<td{}>{}</td>", finite_number(cell) ? " class=\"number\"" : "", escaped(cell));
+    for (std::size_t c = 0; c < row.size(); ++c) text += fmt::format("<td{}>{}</td>", looks[c], escaped(row[c]));
     text += "</tr>\n";
   }
   return text + "</tbody></table></div>\n";

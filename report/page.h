@@ -18,8 +18,9 @@ struct Paragraph {
 struct Table {
   std::string caption;
   std::vector<std::string> columns;
-  std::vector<std::vector<std::string>> rows;  // a cell that is a number is set right
+  std::vector<std::vector<std::string>> rows;  // as many cells as columns; a column of numbers is set right
 };
+constexpr const char* kNotRecorded = "–";
 
 struct Picture {
   std::string caption, png;  // path of a PNG file

@@ -111,9 +111,9 @@ std::string rig_picture(const fs::path& run, const fs::path& out, const std::str
 
 std::string in_words(const json& value) { return value.is_string() ? value.get<std::string>() : value.dump(); }
 
-// Versions, command, seed and hashes of every run, and the files that this page was made from.
-Section provenance(const std::vector<std::pair<std::string, fs::path>>& runs, const std::set<std::string>& read, const fs::path& folder) {
-  Section section{"Provenance", {}};
+// Versions, command, seed and hashes of every run, and the files that this page was made from; the parameters apart.
+std::array<Section, 2> provenance(const std::vector<std::pair<std::string, fs::path>>& runs, const std::set<std::string>& read, const fs::path& folder) {
+  Section section{"Provenance", {}}, all_parameters{"Parameters", {}, true};
   section.blocks.push_back(Paragraph{fmt::format("Report by vielto {}, plots by Apache ECharts (Apache-2.0).", VIELTO_VERSION)});
   for (const auto& [name, run] : runs) {
     const fs::path path = run / "run.json";
@@ -141,12 +141,12 @@ Section provenance(const std::vector<std::pair<std::string, fs::path>>& runs, co
     }
     section.blocks.push_back(facts);
     section.blocks.push_back(hashes);
-    section.blocks.push_back(parameters);
+    all_parameters.blocks.push_back(parameters);
   }
   Table files{"Files this report was made from", {"file", "SHA-256"}, {}};
   for (const std::string& path : read) files.rows.push_back({fs::path(path).lexically_relative(folder).string(), sha256(path)});
   section.blocks.push_back(files);
-  return section;
+  return {section, all_parameters};
 }
 
 Table run_table(const std::vector<std::pair<PowerPoint, json>>& runs) {
@@ -181,8 +181,9 @@ void Work::add_runs() {
     for (const fs::path& inner : sorted(folder))
       if (fs::is_directory(inner) && inner.extension() != ".partial" && is_mixer_run(inner.string())) runs.emplace_back(inner.filename().string(), inner);
   }
-  std::size_t evaluated = 0;
-  for (const auto& [name, run] : runs) evaluated += fs::exists(run / "post/power.json");
+  // First those with a power.
+  const auto rest = std::stable_partition(runs.begin(), runs.end(), [](const auto& run) { return fs::exists(run.second / "post/power.json"); });
+  const auto evaluated = rest - runs.begin();
   Page run_pages;
   std::vector<std::pair<PowerPoint, json>> table;
   std::vector<PowerPoint> points;
@@ -282,7 +283,8 @@ std::vector<std::string> write_report(const ReportRequest& request) {
   page.title = "Report on " + name;
   page.subtitle = fmt::format("Paddle mixer under the ViElTo contact law. Made by vielto {} from the files named at the end.", VIELTO_VERSION);
   if (page.summary.empty()) page.summary.push_back({"Tables and plots of what lies in the folder; there is no evaluated mixer run and no fitted equation in it."});
-  page.sections.push_back(provenance(work.runs, work.read, folder));
+  for (Section& section : provenance(work.runs, work.read, folder))
+    if (!section.blocks.empty()) page.sections.push_back(std::move(section));
 
   const fs::path& out = work.out.partial();
   std::set<std::string> names;

@@ -84,8 +84,8 @@ Plot phase_plot(const std::string& path) {
   return plot;
 }
 
-std::string number(const json& value) { return value.is_number() ? fmt::format("{:.4g}", value.get<double>()) : "not recorded"; }
-std::string number(const json& value, double factor) { return value.is_number() ? fmt::format("{:.3g}", factor * value.get<double>()) : "not recorded"; }
+std::string number(const json& value) { return value.is_number() ? fmt::format("{:.4g}", value.get<double>()) : kNotRecorded; }
+std::string number(const json& value, double factor) { return value.is_number() ? fmt::format("{:.3g}", factor * value.get<double>()) : kNotRecorded; }
 
 Table number_table(const json& p) {
   Table table{"Numbers of the whole drum; u is the standard uncertainty (k = 1)", {"quantity", "value", "u", "unit"}, {}};
@@ -123,14 +123,15 @@ Table limit_table(const json& p) {
 void add_alone(const json& p, Page& page) {
   const double power = p.at("power_W"), u95 = p.at("power_u95_W"), gap = p.at("relative_gap");
   const bool ok = p.at("quality").at("ok"), provisional = p.at("provisional"), in_range = p.at("thesis_in_range");
-  const std::string material = p.at("material");
+  std::string material = p.at("material");
+  std::replace(material.begin(), material.end(), '_', ' ');
   page.figures.push_back({"Mixing power", fmt::format("{:.1f} ± {:.1f} W", power, u95), "95 % interval of the mean"});
   page.figures.push_back({"Published equation", fmt::format("{:.1f} W", p.at("thesis_power_W").get<double>()),
                           fmt::format("the run is {:+.1f} % from it", 100 * gap)});
   page.figures.push_back({"Cohesive power number N_PC", number(p.at("N_PC")), fmt::format("N_C {}, Fr_M {}", number(p.at("N_C")), number(p.at("Fr_M")))});
   page.figures.push_back({"Limits of the run", ok ? "all met" : fmt::format("{} violated", p["quality"]["warnings"].size()), "listed below", !ok});
   page.summary.push_back({fmt::format(
-      "To stir {} at {:g} turns a second, the drum filled to {:.3g} %, the grains take {:.1f} W (95 % interval {:.1f} to {:.1f} W), "
+      "To stir {} at {:g} 1/s, the drum filled to {:.3g} %, takes {:.1f} W (95 % interval {:.1f} to {:.1f} W), "
       "{:.1f} kJ for each minute of mixing. The assumed bulk density adds a common scale of ± {:g} %. Bearings and air are not in it.",
       material, p.at("speed").get<double>(), 100 * p.at("fill").get<double>(), power, power - u95, power + u95, 0.06 * power,
       100 * p.at("scale_uncertainty").get<double>())});
@@ -179,7 +180,7 @@ std::optional<PowerPoint> add_run(RunOfReport& run, bool alone, Page& page) {
       throw BadInput(path, 0, fmt::format("is no power.json ({})", error.what()), "run `vielto post` on the run again");
     }
   } else {
-    section.blocks.push_back(Paragraph{idling ? "The empty machine: its idling torque is taken from the loaded runs' in the measurement chain."
+    section.blocks.push_back(Paragraph{idling ? "The empty machine: in the measurement chain its idling power is taken off the loaded runs'."
                                               : "Not evaluated: `vielto post` on the run folder makes its power.",
                                        idling ? Paragraph::Tone::plain : Paragraph::Tone::warning});
     if (!idling) page.summary.push_back({titled(run.name, "Not evaluated") + ": `vielto post` on the run folder makes its power.", Paragraph::Tone::warning});
