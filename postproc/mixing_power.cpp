@@ -93,9 +93,9 @@ MeanUncertainty mean_over(const std::vector<double>& signal, const AveragedTurns
   return mean_uncertainty(std::vector<double>(begin, begin + static_cast<std::ptrdiff_t>(turns.count) * kPhases), kPhases);
 }
 
-AveragedTurns steady_turns(const std::string& path, int first_turn, const std::vector<double>& signal, int asked) {
-  const int turns = static_cast<int>(signal.size()) / kPhases;
-  const SteadyPart part = find_steady_part(signal, kPhases, asked);
+AveragedTurns steady_turns(const std::string& path, int first_turn, const std::vector<double>& signal, int asked, int block) {
+  const int turns = static_cast<int>(signal.size()) / kPhases * block;
+  const SteadyPart part = find_steady_part(signal, kPhases, std::max(kLeastAveragedTurns, (asked + block - 1) / block));
   const auto refuse = [&](const std::string& why, int more) {
     throw BadInput(path, 0,
                    fmt::format("has {} whole turn{}{}, and {} steady ones are asked for", turns,
@@ -111,15 +111,16 @@ AveragedTurns steady_turns(const std::string& path, int first_turn, const std::v
       refuse("", asked - turns);
       break;
     case Steadiness::start_up_reaches_limit:
-      refuse(fmt::format(", the start-up still shows in turn {}", first_turn + part.first), part.first + 1);
+      refuse(fmt::format(", the start-up still shows in turn {}", first_turn + part.first * block), (part.first + 1) * block);
       break;
     case Steadiness::trend:
-      refuse(fmt::format(", the last {} still drift by {:+.2g} % a turn", part.count, 100 * part.slope / mean), asked);
+      refuse(fmt::format(", the last {} still drift by {:+.2g} % a turn", part.count * block, 100 * part.slope / mean / block),
+             asked);
       break;
     case Steadiness::steady:
       break;
   }
-  return {part.first, part.count, part.slope / mean, part.slope_p};
+  return {part.first, part.count, part.slope / mean / block, part.slope_p};
 }
 
 MixingPower mixing_power(const TorqueRecord& loaded, const TorqueRecord* idle, int turns) {
@@ -128,12 +129,15 @@ MixingPower mixing_power(const TorqueRecord& loaded, const TorqueRecord* idle, i
     throw BadInput(loaded.path, 0, "is an idling record (fill 0)", "name a loaded record, and give this one to --idle");
   MixingPower result;
   result.header = h;
-  result.turns_total = loaded.turns;
+  const int block = loaded.turns_per_block;
+  result.turns_total = loaded.turns * block;
   const double scale = h.whole_drum();
   const Signal rotor = loaded.rotor();
-  const AveragedTurns averaged = steady_turns(loaded.path, loaded.first_turn, rotor, turns);
+  const AveragedTurns averaged = steady_turns(loaded.path, loaded.first_turn, rotor, turns, block);
   result.averaged = averaged;
-  result.turn_first = loaded.first_turn + averaged.first;
+  result.averaged.first *= block;
+  result.averaged.count *= block;
+  result.turn_first = loaded.first_turn + result.averaged.first;
 
   result.torque = scaled(mean_over(rotor, averaged), scale);
   if (!(result.torque.mean > 0))
@@ -151,7 +155,7 @@ MixingPower mixing_power(const TorqueRecord& loaded, const TorqueRecord* idle, i
       throw BadInput(idle->path, 0,
                      fmt::format("idles at {} 1/s, the loaded record ran at {} 1/s", idle->header.speed, h.speed),
                      "give an idling record of the same speed");
-    const AveragedTurns idling = steady_turns(idle->path, idle->first_turn, idle->idle, turns);
+    const AveragedTurns idling = steady_turns(idle->path, idle->first_turn, idle->idle, turns, idle->turns_per_block);
     check_idle(*idle, idling);
     check_idle(loaded, averaged);
     // The idling torque is the whole machine's, whatever slice of the grains was simulated.

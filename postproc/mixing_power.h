@@ -75,7 +75,8 @@ struct MixingPower {
 
 // The steady turns of a signal of kPhases values a turn, `asked` at least; the record began at turn `first_turn`.
 // Errors: BadInput naming `path` if there are not that many; it says how many more to run.
-AveragedTurns steady_turns(const std::string& path, int first_turn, const std::vector<double>& signal, int asked);
+AveragedTurns steady_turns(const std::string& path, int first_turn, const std::vector<double>& signal, int asked,
+                           int block = 1);
 
 // Mean of a signal of kPhases values a turn over these turns.
 MeanUncertainty mean_over(const std::vector<double>& signal, const AveragedTurns& turns);

@@ -29,6 +29,9 @@ struct ThesisEquation {
   static constexpr double low_speed = 0.48, high_speed = 1.58;  // 1/s
 };
 
+// Thesis 2: the largest relative error of mixing powers simulated with ViElTo, against measurements.
+constexpr double kThesisModelLimit = 0.145;
+
 // Power from the torque of the drive, N m, at `speed`, 1/s.
 inline double shaft_power(double torque, double speed) { return 2 * kPi * speed * torque; }
 

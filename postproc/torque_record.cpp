@@ -57,10 +57,21 @@ TorqueRecordHeader parse_header(const std::string& path, const Keys& keys) {
   return h;
 }
 
-// Means over phases of the turn, one phase after another.
+// Of each two neighbouring groups of `width` values their mean, in place.
+void halve(std::vector<double>& values, std::size_t width) {
+  const std::size_t pairs = values.size() / (2 * width);
+  for (std::size_t p = 0; p < pairs; ++p)
+    for (std::size_t i = 0; i < width; ++i)
+      values[p * width + i] = 0.5 * (values[2 * p * width + i] + values[(2 * p + 1) * width + i]);
+  values.resize(pairs * width);
+}
+
+// Means over phases of the turn, one phase after another, each over the turns of a block.
 class PhaseBins {
  public:
-  explicit PhaseBins(std::size_t signals) : sums_(signals, 0.0), curves_(signals) {}
+  explicit PhaseBins(std::size_t signals) : sums_(signals, 0.0), block_(signals), curves_(signals) {
+    for (auto& signal : block_) signal.assign(kPhases, 0.0);
+  }
 
   // Part of an interval inside the current phase: `share` of a turn, one value per signal.
   void add(const std::vector<double>& values, double share) {
@@ -68,21 +79,41 @@ class PhaseBins {
     weight_ += share;
   }
   void next() {
+    const auto phase = static_cast<std::size_t>(count_++ % kPhases);
     for (std::size_t s = 0; s < sums_.size(); ++s) {
-      curves_[s].push_back(sums_[s] / weight_);
+      block_[s][phase] += sums_[s] / weight_ / turns_per_block_;
       sums_[s] = 0;
     }
     weight_ = 0;
-    ++count_;
+  }
+  // Whether the phase just finished ends a block; then it is kept.
+  bool ends_block() {
+    if (count_ % kPhases != 0 || ++turns_in_block_ < turns_per_block_) return false;
+    for (std::size_t s = 0; s < block_.size(); ++s) {
+      curves_[s].insert(curves_[s].end(), block_[s].begin(), block_[s].end());
+      block_[s].assign(kPhases, 0.0);
+    }
+    turns_in_block_ = 0;
+    ++blocks_;
+    return true;
+  }
+  bool full() const { return blocks_ == kMostBlocks; }
+  void halve_blocks() {
+    for (auto& curve : curves_) halve(curve, kPhases);
+    blocks_ /= 2;
+    turns_per_block_ *= 2;
   }
   long count() const { return count_; }  // of finished phases
+  int blocks() const { return blocks_; }
+  int turns_per_block() const { return turns_per_block_; }
   std::vector<double>& curve(std::size_t s) { return curves_[s]; }
 
  private:
   std::vector<double> sums_;
-  std::vector<std::vector<double>> curves_;
+  std::vector<std::vector<double>> block_, curves_;  // of the block under way, of the finished ones
   double weight_ = 0;
   long count_ = 0;
+  int turns_in_block_ = 0, turns_per_block_ = 1, blocks_ = 0;
 };
 
 class EnergyColumns {
@@ -197,7 +228,7 @@ TorqueRecord read_torque_record(const std::string& path) {
 
   PhaseBins bins(kept.size());
   std::vector<double> row, values(kept.size());
-  double turn_overlap_max = 0;
+  double block_overlap_max = 0;
   while (file.next_row(row)) {
     const double end = progress.end(row, file.line());
     const double begin = end - progress.length();
@@ -214,28 +245,33 @@ TorqueRecord read_torque_record(const std::string& path) {
     if (end <= record.first_turn + kSliver) continue;
 
     for (std::size_t s = 0; s < kept.size(); ++s) values[s] = row[kept[s]];
-    turn_overlap_max = std::max(turn_overlap_max, row[overlap_max]);
+    block_overlap_max = std::max(block_overlap_max, row[overlap_max]);
     for (double from = std::max(begin, static_cast<double>(record.first_turn));;) {
       const double edge = record.first_turn + static_cast<double>(bins.count() + 1) / kPhases;
       if (from < std::min(end, edge)) bins.add(values, std::min(end, edge) - from);
       if (!reaches(bins.count() + 1)) break;
       bins.next();
       from = edge;
-      if (bins.count() % kPhases != 0) continue;
-      record.overlap_max.push_back(turn_overlap_max);
-      turn_overlap_max = end > edge + kSliver ? row[overlap_max] : 0;
+      if (!bins.ends_block()) continue;
+      record.overlap_max.push_back(block_overlap_max);
+      block_overlap_max = end > edge + kSliver ? row[overlap_max] : 0;
       if (energy.recorded()) record.energy.push_back(energy.at(row));
+      if (!bins.full()) continue;
+      bins.halve_blocks();
+      for (std::size_t b = 0; b < record.overlap_max.size() / 2; ++b)
+        record.overlap_max[b] = std::max(record.overlap_max[2 * b], record.overlap_max[2 * b + 1]);
+      record.overlap_max.resize(record.overlap_max.size() / 2);
+      for (std::size_t b = 0; 2 * b < record.energy.size(); ++b) record.energy[b] = record.energy[2 * b];
+      record.energy.resize((record.energy.size() + 1) / 2);
     }
   }
   if (progress.rows() == 0) throw BadInput(path, 0, "holds no row", "run the case again");
 
-  record.turns = static_cast<int>(bins.count() / kPhases);
+  record.turns = bins.blocks();
+  record.turns_per_block = bins.turns_per_block();
   record.intervals_per_turn = 1 / progress.length();
   std::size_t s = 0;
-  const auto take = [&](std::vector<double>& signal) {
-    signal = std::move(bins.curve(s++));
-    signal.resize(static_cast<std::size_t>(record.turns) * kPhases);  // the last turn may not be whole
-  };
+  const auto take = [&](std::vector<double>& signal) { signal = std::move(bins.curve(s++)); };
   for (auto& part : record.part) take(part);
   take(record.idle);
   take(record.overlap_mean);

@@ -4,10 +4,14 @@
 // what the part exerts on the grains about the axis in the direction of rotation, N m (positive: the drive supplies).
 // Force: what the part exerts on the grains, N. overlap_mean and overlap_max: fractions of the grain diameter.
 //
-// Read as a stream and kept as means over phases of the turn: 72 values a whole turn and signal. Memory grows with the
-// number of turns (about 6 kB each), not of rows. An interval that reaches over several phases counts in each by its
-// share of time. Turns that the record does not cover whole, at its start and end, are left out; no row inside is ever
-// dropped.
+// Read as a stream and kept as means over phases of the turn: 72 values a whole turn and signal. An interval that
+// reaches over several phases counts in each by its share of time. Turns that the record does not cover whole, at its
+// start and end, are left out; no row inside is ever dropped.
+//
+// Memory is bounded (about 10 MB of signals), whatever the length: at kMostBlocks turns, pairs of neighbours become one
+// block, their mean, and so on. All that is done with turns then holds for blocks of turns_per_block turns: batch means
+// are what the steadiness test and the autocorrelation of a mean are made for. The turns of a last block that is not
+// full are left out.
 //
 // Errors: BadInput with file, line and column for a missing key or column, a cut-off line, a value that is not a finite
 // number, steps that do not follow each other by interval_steps, times or turns that do not follow the steps, no rows.
@@ -19,7 +23,8 @@
 
 namespace vielto {
 
-constexpr int kPhases = 72;  // of 5 degrees
+constexpr int kPhases = 72;        // of 5 degrees
+constexpr int kMostBlocks = 1024;  // even
 constexpr std::array<const char*, 4> kParts = {"paddles", "stems", "shaft", "drum"};
 
 struct TorqueRecordHeader {
@@ -59,7 +64,8 @@ struct TorqueRecord {
   std::string path;
   TorqueRecordHeader header;
   int first_turn = 0;     // turns since the start of the rotation when the first whole turn begins
-  int turns = 0;          // whole turns
+  int turns = 0;          // whole turns; of a long record: blocks of turns_per_block whole turns
+  int turns_per_block = 1;
   double start_step = 0;  // at which the rotation began
   double intervals_per_turn = 0;
 

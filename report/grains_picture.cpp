@@ -43,13 +43,14 @@ struct Dump {
   long step = -1;
 };
 
-// The dump of the latest step: NAME_STEP.vtk; LIGGGHTS writes the box beside it as NAME_boundingBox_STEP.vtk.
-std::optional<Dump> last_dump(const fs::path& folder) {
+// The dump of the latest step: NAME_STEP.vtk or NAME_STEP.stl; LIGGGHTS writes the box beside it as
+// NAME_boundingBox_STEP.vtk.
+std::optional<Dump> last_dump(const fs::path& folder, const char* type) {
   std::optional<Dump> last;
   std::error_code missing;
   for (const auto& file : fs::directory_iterator(folder, missing)) {
     const std::string name = file.path().stem().string();
-    if (file.path().extension() != ".vtk" || name.find("boundingBox") != std::string::npos) continue;
+    if (file.path().extension() != type || name.find("boundingBox") != std::string::npos) continue;
     const auto digits = name.find_last_not_of("0123456789") + 1;
     if (digits == name.size()) continue;
     const long step = std::stol(name.substr(digits));
@@ -97,7 +98,7 @@ vtkNew<vtkColorTransferFunction> speed_colours(double most) {
   return colours;
 }
 
-vtkNew<vtkActor> part_actor(const fs::path& path, double degrees, bool drum) {
+vtkNew<vtkActor> part_actor(const fs::path& path, double degrees, double opacity) {
   vtkNew<vtkSTLReader> reader;
   reader->SetFileName(path.c_str());
   vtkNew<vtkTransform> rotation;
@@ -111,7 +112,7 @@ vtkNew<vtkActor> part_actor(const fs::path& path, double degrees, bool drum) {
   actor->SetMapper(mapper);
   actor->GetProperty()->SetColor(0.72, 0.74, 0.78);
   actor->GetProperty()->SetAmbient(0.25);
-  if (drum) actor->GetProperty()->SetOpacity(0.18);
+  actor->GetProperty()->SetOpacity(opacity);
   return actor;
 }
 
@@ -124,24 +125,27 @@ vtkNew<vtkTextActor> caption(const std::string& text, int size, double x, double
   return actor;
 }
 
-}  // namespace
-
-bool draw_grains(const std::string& run, const TorqueRecord& record, const std::string& path) {
-  const auto dump = last_dump(fs::path(run) / "vtk");
-  const fs::path mesh = fs::path(run) / "mesh";
-  if (!dump || !fs::exists(mesh / "drum.stl")) return false;
-  const auto grains = read_grains(dump->path);
-  const double turns =
-      std::max(0.0, (static_cast<double>(dump->step) - record.start_step) / record.header.steps_per_turn);
-
-  vtkNew<vtkRenderer> renderer;
-  renderer->SetBackground(1, 1, 1);
-  for (const auto& file : fs::directory_iterator(mesh)) {
+// The parts of the rig: the drum translucent, the rest turned about the x axis by `degrees`. Without an angle the parts
+// are where the last dump of meshes has them, or where they began, all of them translucent but for the rotor. False if
+// there is none.
+bool add_parts(vtkRenderer* renderer, const fs::path& run, std::optional<double> degrees) {
+  constexpr double kDrum = 0.18, kAnyPart = 0.4;
+  if (const auto moved = last_dump(run / "vtk", ".stl"); moved && !degrees) {
+    renderer->AddActor(part_actor(moved->path, 0, kAnyPart));
+    return true;
+  }
+  bool any = false;
+  std::error_code missing;
+  for (const auto& file : fs::directory_iterator(run / "mesh", missing)) {
     if (file.path().extension() != ".stl") continue;
     const bool drum = file.path().stem() == "drum";
-    renderer->AddActor(part_actor(file.path(), drum ? 0 : 360 * turns, drum));
+    renderer->AddActor(part_actor(file.path(), drum ? 0 : degrees.value_or(0), drum ? kDrum : degrees ? 1 : kAnyPart));
+    any = true;
   }
+  return any;
+}
 
+void add_grains(vtkRenderer* renderer, vtkPolyData* grains) {
   double range[2] = {0, 0};
   grains->GetPointData()->GetArray("speed")->GetRange(range);
   const auto colours = speed_colours(range[1] > 0 ? range[1] : 1);
@@ -178,13 +182,33 @@ bool draw_grains(const std::string& run, const TorqueRecord& record, const std::
   bar->SetWidth(0.11);
   bar->SetHeight(0.65);
   renderer->AddActor2D(bar);
-  const TorqueRecordHeader& h = record.header;
-  renderer->AddActor2D(caption("Grains in the mixer, coloured by speed", 34, 40, kHeight - 70));
-  renderer->AddActor2D(caption(
-      fmt::format("{}{}, fill {}, {} 1/s, {}, after {:.2f} turns", h.material, h.provisional ? " (provisional)" : "",
-                  h.fill, h.speed,
-                  h.slice > 0 ? fmt::format("slice of {} of {} paddles", h.slice, h.paddles) : "whole drum", turns),
-      24, 40, kHeight - 110));
+}
+
+}  // namespace
+
+bool draw_grains(const std::string& run, const TorqueRecord& record, const std::string& path) {
+  if (!last_dump(fs::path(run) / "vtk", ".vtk") || !fs::exists(fs::path(run) / "mesh/drum.stl")) return false;
+  return draw_rig(run, &record, path);
+}
+
+bool draw_rig(const std::string& run, const TorqueRecord* record, const std::string& path) {
+  const auto dump = last_dump(fs::path(run) / "vtk", ".vtk");
+  const double turns = record && dump ? std::max(0.0, (static_cast<double>(dump->step) - record->start_step) /
+                                                          record->header.steps_per_turn)
+                                      : 0;
+  vtkNew<vtkRenderer> renderer;
+  renderer->SetBackground(1, 1, 1);
+  if (!add_parts(renderer, run, record ? std::optional(360 * turns) : std::nullopt)) return false;
+  if (dump) add_grains(renderer, read_grains(dump->path));
+  renderer->AddActor2D(caption(dump ? "Grains in the rig, coloured by speed" : "The rig", 34, 40, kHeight - 70));
+  if (record) {
+    const TorqueRecordHeader& h = record->header;
+    renderer->AddActor2D(caption(
+        fmt::format("{}{}, fill {}, {} 1/s, {}, after {:.2f} turns", h.material, h.provisional ? " (provisional)" : "",
+                    h.fill, h.speed,
+                    h.slice > 0 ? fmt::format("slice of {} of {} paddles", h.slice, h.paddles) : "whole drum", turns),
+        24, 40, kHeight - 110));
+  }
 
   // From the side and a little above, along the shaft's axis for the most part.
   vtkCamera* camera = renderer->GetActiveCamera();

@@ -20,7 +20,7 @@ void draw_torque(const TorqueRecord& record, const MixingPower& power, const std
 
 // The grains of the last dump in RUN/vtk (`dump custom/vtk` with v and radius), coloured by speed, in the meshes of
 // RUN/mesh: the drum translucent, every other part turned about the x axis to where the rotor stood. False if there is
-// no dump or no mesh. Errors: BadInput for a dump without radius or velocity; std::runtime_error if the file cannot be
+// no dump or no drum. Errors: BadInput for a dump without radius or velocity; std::runtime_error if the file cannot be
 // written.
 bool draw_grains(const std::string& run, const TorqueRecord& record, const std::string& path);
 
@@ -30,5 +30,8 @@ void draw_shear(const ShearRecord& record, const ShearResult& result, const std:
 
 // The heap's profile: the surface of all strips, their mean, the fitted line, the flank shaded. Errors as above.
 void draw_heap(const Heap& heap, const ConeFit& fit, const std::string& path);
+// The same of any rig, whatever is there of grains and meshes; without a record nothing is turned. False if there is no
+// mesh. Errors: as draw_grains.
+bool draw_rig(const std::string& run, const TorqueRecord* record, const std::string& path);
 
 }  // namespace vielto

@@ -10,17 +10,18 @@
 namespace vielto {
 void draw_torque(const TorqueRecord& record, const MixingPower& power, const std::string& path) {
   const double scale = record.header.whole_drum(), turn_time = 1 / record.header.speed;
+  const double start = record.first_turn * turn_time, block_time = record.turns_per_block * turn_time;
   std::vector<double> torque = record.rotor();
   for (double& value : torque) value *= scale;
   std::vector<double> time;
   for (std::size_t i = 0; i < torque.size(); ++i)
-    time.push_back((record.first_turn + (static_cast<double>(i) + 0.5) / kPhases) * turn_time);
+    time.push_back(start + (static_cast<double>(i) + 0.5) / kPhases * block_time);
   // Turn means as stairs.
   std::vector<double> stairs_time, stairs;
   const std::vector<double> means = turn_means(torque, kPhases);
   for (std::size_t t = 0; t < means.size(); ++t)
     for (const double end : {0.0, 1.0}) {
-      stairs_time.push_back((record.first_turn + static_cast<double>(t) + end) * turn_time);
+      stairs_time.push_back(start + (static_cast<double>(t) + end) * block_time);
       stairs.push_back(means[t]);
     }
   const auto [least, most] = std::minmax_element(torque.begin(), torque.end());

@@ -122,6 +122,7 @@ json power_fit_json(const PowerFit& fit) {
   for (Eigen::Index i = 0; i < fit.number.size(); ++i) {
     const PowerRow& row = fit.data.fit[static_cast<std::size_t>(i)];
     json r = {{"test", row.observation.test},
+              {"material", row.observation.material},
               {"speed", *row.observation.speed},
               {"power", row.observation.value},
               {"observed", fit.number[i]},

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "page.h"
+
+#include <fmt/format.h>
+#include <vtkBase64Utilities.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "bad_input.h"
+#include "csv.h"
+
+namespace vielto {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string bytes_of(const std::string& path, const std::string& mend) {
+  std::ifstream in(path, std::ios::binary);
+  std::ostringstream text;
+  text << in.rdbuf();
+  if (!in || text.str().empty()) throw BadInput(path, 0, "cannot be read", mend);
+  return text.str();
+}
+
+std::string escaped(const std::string& text) {
+  std::string out;
+  for (const char c : text) switch (c) {
+      case '&': out += "&amp;"; break;
+      case '<': out += "&lt;"; break;
+      case '>': out += "&gt;"; break;
+      case '"': out += "&quot;"; break;
+      default: out += c;
+    }
+  return out;
+}
+
+// Inside a script element a literal "</" would end it.
+std::string in_script(std::string text) {
+  for (std::size_t at = 0; (at = text.find("</", at)) != std::string::npos; at += 3) text.insert(at + 1, "\\");
+  return text;
+}
+
+std::string base64(const std::string& bytes) {
+  std::vector<unsigned char> out(2 * bytes.size() + 4);
+  const auto length = vtkBase64Utilities::Encode(reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size(), out.data());
+  return {out.begin(), out.begin() + static_cast<std::ptrdiff_t>(length)};
+}
+
+std::string html(const Paragraph& p) {
+  return fmt::format("<p{}>{}</p>\n", p.tone == Paragraph::Tone::warning ? " class=\"warning\"" : "", escaped(p.text));
+}
+
+// Set right: columns of numbers alone, and of what was not recorded.
+bool is_of_numbers(const Table& table, std::size_t column) {
+  return std::all_of(table.rows.begin(), table.rows.end(), [column](const auto& row) {
+    return row[column].empty() || row[column] == kNotRecorded || finite_number(row[column]);
+  });
+}
+
+std::string html(const Table& table) {
+  std::vector<const char*> looks;
+  for (std::size_t c = 0; c < table.columns.size(); ++c) looks.push_back(is_of_numbers(table, c) ? " class=\"number\"" : "");
+  std::string text = "<div class=\"wide\"><table>\n";
+  if (!table.caption.empty()) text += fmt::format("<caption>{}</caption>\n", escaped(table.caption));
+  text += "<thead><tr>";
+  for (std::size_t c = 0; c < table.columns.size(); ++c) text += fmt::format("<th scope=\"col\"{}>{}</th>", looks[c], escaped(table.columns[c]));
+  text += "</tr></thead>\n<tbody>\n";
+  for (const auto& row : table.rows) {
+    text += "<tr>";
+    for (std::size_t c = 0; c < row.size(); ++c) text += fmt::format("<td{}>{}</td>", looks[c], escaped(row[c]));
+    text += "</tr>\n";
+  }
+  return text + "</tbody></table></div>\n";
+}
+
+std::string html(const Picture& picture) {
+  return fmt::format("<figure><img alt=\"{0}\" src=\"data:image/png;base64,{1}\"><figcaption>{0}</figcaption></figure>\n",
+                     escaped(picture.caption), base64(bytes_of(picture.png, "draw the picture again")));
+}
+
+std::string html(const Plot& plot) {
+  return fmt::format(
+      "<figure class=\"plot\"><h3>{}</h3><div class=\"chart\" data-plot=\"{}\"></div>"
+      "<figcaption>{} <span class=\"files\">Beside this page: {}.svg, {}.csv</span></figcaption></figure>\n",
+      escaped(plot.title), escaped(plot.file), escaped(plot.caption), escaped(plot.file), escaped(plot.file));
+}
+
+}  // namespace
+
+std::vector<const Plot*> Page::plots() const {
+  std::vector<const Plot*> list;
+  for (const Section& section : sections)
+    for (const auto& block : section.blocks)
+      if (const auto* plot = std::get_if<Plot>(&block)) list.push_back(plot);
+  return list;
+}
+
+std::string web_file(const std::string& name) {
+  const fs::path path = fs::read_symlink("/proc/self/exe").parent_path().parent_path() / "share/vielto/report" / name;
+  return path.string();
+}
+
+std::string plots_json(const Page& page) {
+  nlohmann::json list = nlohmann::json::array();
+  for (const Plot* plot : page.plots())
+    list.push_back({{"file", plot->file}, {"title", plot->title}, {"caption", plot->caption}, {"option", plot_option(*plot)}});
+  return list.dump();
+}
+
+std::string page_html(const Page& page, bool with_plots) {
+  const auto web = [](const char* name) { return bytes_of(web_file(name), "install vielto again"); };
+  std::string text = fmt::format(
+      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<meta name=\"color-scheme\" content=\"light dark\">\n"
+      // No icon is asked for, nothing is loaded: the browser itself enforces it.
+      "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src data:; style-src 'unsafe-inline'; script-src 'unsafe-inline'\">\n"
+      "<link rel=\"icon\" href=\"data:,\">\n<title>{0}</title>\n<style>\n{2}</style>\n</head>\n<body>\n<main>\n"
+      "<header><h1>{0}</h1><p>{1}</p></header>\n",
+      escaped(page.title), escaped(page.subtitle), web("page.css"));
+  text += "<section id=\"summary\">\n<h2>Summary</h2>\n<div class=\"figures\">\n";
+  for (const KeyFigure& f : page.figures)
+    text += fmt::format("<div class=\"key{}\"><span>{}</span><strong>{}</strong><span>{}</span></div>\n", f.bad ? " bad" : "",
+                        escaped(f.label), escaped(f.value), escaped(f.note));
+  text += "</div>\n";
+  for (const Paragraph& p : page.summary) text += html(p);
+  if (!with_plots) text += html(Paragraph{"The plots were left out of this report (--no-plots); their data are the CSV files beside it.", Paragraph::Tone::plain});
+  text += "</section>\n";
+  for (const Section& section : page.sections) {
+    const std::string title = fmt::format("<h2>{}</h2>", escaped(section.title));
+    text += section.folded ? "<section><details><summary>" + title + "</summary>\n" : "<section>" + title + "\n";
+    for (const auto& block : section.blocks)
+      std::visit([&](const auto& b) {
+        if (with_plots || !std::is_same_v<std::decay_t<decltype(b)>, Plot>) text += html(b);
+      }, block);
+    text += section.folded ? "</details></section>\n" : "</section>\n";
+  }
+  text += "</main>\n";
+  if (with_plots && !page.plots().empty())
+    text += fmt::format("<script type=\"application/json\" id=\"plots\">{}</script>\n<script>\n{}\n</script>\n<script>\n{}</script>\n",
+                        in_script(plots_json(page)), web("echarts.min.js"), web("page.js"));
+  return text + "</body>\n</html>\n";
+}
+
+}  // namespace vielto

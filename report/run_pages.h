@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What a report says of one run folder of the mixer: numbers, limits, torque over time and over the phase of the turn,
+// picture.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "equation_pages.h"
+#include "page.h"
+
+namespace vielto {
+
+struct RunOfReport {
+  std::string folder, name;  // name: "" if the report is of this run alone
+  std::string picture;       // PNG to show; empty: none
+  std::vector<std::string> read;  // files that were used
+};
+
+// True if `folder` holds a torque record of the mixer.
+bool is_mixer_run(const std::string& folder);
+
+// Adds a section; the point is empty for an idling run and for one without post/power.json (the summary says so).
+// Errors: BadInput for files that break their format.
+std::optional<PowerPoint> add_run(RunOfReport& run, bool alone, Page& page);
+
+}  // namespace vielto
