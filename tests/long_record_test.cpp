@@ -105,9 +105,11 @@ void write_long(const fs::path& folder, long turns) {
     at = end + 1;
   }
   const long rows = turns * static_cast<long>(rest.size());
-  for (long i = 1; i <= rows; ++i)
-    std::fprintf(out, "%ld,%.12g,%.12g,%s\n", i * record.steps_per_row, i / record.rows_per_turn / record.speed, i / record.rows_per_turn,
-                 rest[static_cast<std::size_t>((i - 1) % static_cast<long>(rest.size()))].c_str());
+  for (long i = 1; i <= rows; ++i) {
+    const double turn = static_cast<double>(i) / record.rows_per_turn;
+    std::fprintf(out, "%ld,%.12g,%.12g,%s\n", i * record.steps_per_row, turn / record.speed, turn,
+                 rest[static_cast<std::size_t>(i - 1) % rest.size()].c_str());
+  }
   std::fclose(out);
 }
 
@@ -123,7 +125,7 @@ double memory_of_post(const fs::path& folder) {
   rusage usage{};
   wait4(child, &status, 0, &usage);
   EXPECT_EQ(WEXITSTATUS(status), 0);
-  return usage.ru_maxrss / 1024.0;
+  return static_cast<double>(usage.ru_maxrss) / 1024;
 }
 
 // The long file is over a hundred megabytes and would take 600 MB if every turn were kept.
