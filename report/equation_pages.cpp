@@ -135,7 +135,7 @@ Table coefficient_table(const json& fit) {
       table.rows.push_back({name, words(c.at("value")), fixed ? "fixed" : words(c.at("low95")), fixed ? "" : words(c.at("high95")),
                             c.contains("booklet") ? words(c["booklet"]) : ""});
     }
-  for (const json& name : fit.at("undetermined")) table.rows.push_back({name.get<std::string>(), "not determined by these rows", "", "", ""});
+  for (const json& name : fit.at("undetermined")) table.rows.push_back({name.get<std::string>(), "not determined", "", "", ""});
   return table;
 }
 
@@ -152,7 +152,8 @@ Table statistics_table(const json& fit) {
                 {"largest relative error of the booklet's equation on these rows", percent(fit.at("booklet").at("against_rows").at("maximum"))},
                 {"stated in the booklet for its measurements", percent(fit.at("booklet").at("max_relative_error"))},
                 {"rank", fmt::format("{} of {}", fit.at("rank").get<int>(), fit.at("columns").get<int>())},
-                {"condition number", words(fit.at("condition"))}};
+                // JSON has no infinity
+                {"condition number", fit.at("condition").is_null() ? "infinite" : words(fit["condition"])}};
   if (fit.contains("check")) table.rows.push_back({"largest relative error of the rows held out", percent(fit["check"].at("maximum"))});
   return table;
 }
