@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <fstream>
+#include <functional>
 #include <map>
 #include <utility>
 
@@ -175,6 +176,25 @@ void read_rows(const std::string& path, const std::string& header, Use use) {
   if (number == 1) throw BadInput(path, 0, "holds no row below its header", "add at least one row");
 }
 
+Observation parsed(const Place& place, const std::vector<std::string_view>& f) {
+  Observation row;
+  row.test = f[0];
+  row.role = f[1];
+  row.apparatus = f[2];
+  row.observable = f[3];
+  row.value = place.number("value", f[4]);
+  row.u = place.number("u", f[5]);
+  row.unit = f[6];
+  std::size_t column = 7;
+  for (const Condition& c : kConditions) {
+    const std::string_view field = f[column++];
+    if (!field.empty()) row.*c.member = place.number(c.name, field);
+  }
+  row.wall = f[13];
+  row.material = f[14];
+  return row;
+}
+
 }  // namespace
 
 std::optional<std::string> observable_unit(const std::string& apparatus, const std::string& observable) {
@@ -192,25 +212,43 @@ std::vector<Observation> read_observations(const std::string& path) {
   std::vector<Observation> rows;
   TableCheck check;
   read_rows(path, kHeader, [&](const Place& place, const std::vector<std::string_view>& f) {
-    Observation row;
-    row.test = f[0];
-    row.role = f[1];
-    row.apparatus = f[2];
-    row.observable = f[3];
-    row.value = place.number("value", f[4]);
-    row.u = place.number("u", f[5]);
-    row.unit = f[6];
-    std::size_t column = 7;
-    for (const Condition& c : kConditions) {
-      const std::string_view field = f[column++];
-      if (!field.empty()) row.*c.member = place.number(c.name, field);
-    }
-    row.wall = f[13];
-    row.material = f[14];
-    check.add(row, place);
-    rows.push_back(std::move(row));
+    rows.push_back(parsed(place, f));
+    check.add(rows.back(), place);
   });
   return rows;
+}
+
+void for_each_test(const std::string& path, const std::function<void(const std::vector<NumberedObservation>&)>& use) {
+  std::vector<NumberedObservation> test;
+  std::vector<std::size_t> hashes;  // of the names of all tests
+  TableCheck check;
+  const auto finish = [&] {
+    if (test.empty()) return;
+    hashes.push_back(std::hash<std::string>()(test.front().row.test));
+    use(test);
+    test.clear();
+    check = TableCheck();
+  };
+  read_rows(path, kHeader, [&](const Place& place, const std::vector<std::string_view>& f) {
+    if (!test.empty() && test.front().row.test != f[0]) finish();
+    test.push_back({parsed(place, f), place.line});
+    check.add(test.back().row, place);
+  });
+  finish();
+
+  std::sort(hashes.begin(), hashes.end());
+  const auto twice = std::adjacent_find(hashes.begin(), hashes.end());
+  if (twice == hashes.end()) return;
+  std::map<std::string, int> last;  // line, of the tests with this hash
+  read_rows(path, kHeader, [&](const Place& place, const std::vector<std::string_view>& f) {
+    const std::string name(f[0]);
+    if (std::hash<std::string>()(name) != *twice) return;
+    const auto [seen, is_new] = last.emplace(name, place.line);
+    if (!is_new && seen->second != place.line - 1)
+      place.refuse("test", fmt::format("'{}' stands in line {} too, with other tests between", name, seen->second),
+                   "keep the rows of a test together in a table this long, and name repeats as tests of their own");
+    seen->second = place.line;
+  });
 }
 
 void write_observations(const std::string& path, const std::vector<Observation>& rows) {

@@ -20,6 +20,7 @@
 // skipped.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -60,6 +61,14 @@ struct Covariance {
 std::optional<std::string> observable_unit(const std::string& apparatus, const std::string& observable);
 
 std::vector<Observation> read_observations(const std::string& path);
+
+// The same for a table of any length: `use` gets the rows of one test after another, with the line of each. Memory grows
+// by 8 bytes a test. The rows of a test must stand together; otherwise BadInput, after the last test.
+struct NumberedObservation {
+  Observation row;
+  int line = 0;
+};
+void for_each_test(const std::string& path, const std::function<void(const std::vector<NumberedObservation>&)>& use);
 
 // Refuses rows that the reader would refuse (BadInput naming `path` and the line the row would have had).
 void write_observations(const std::string& path, const std::vector<Observation>& rows);

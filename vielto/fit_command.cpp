@@ -61,10 +61,14 @@ void fit(const FitOptions& o) {
   if (mixers.size() != 1 && mixers.size() != o.tables.size())
     throw BadInput("--mixer", 0, fmt::format("{} mixers stand for {} tables", mixers.size(), o.tables.size()),
                    "give one mixer, or one for each table in their order");
-  std::vector<ReducedTable> tables;
-  for (const std::string& path : o.tables) tables.push_back(read_reduced_table(path));
-
-  const PowerFit result = fit_power(request, power_data(tables, mixers, materials));
+  PowerFit result;
+  if (are_long(o.tables)) {
+    result = fit_power(request, PowerStream(o.tables, mixers, materials));
+  } else {
+    std::vector<ReducedTable> tables;
+    for (const std::string& path : o.tables) tables.push_back(read_reduced_table(path));
+    result = fit_power(request, power_data(tables, mixers, materials));
+  }
   if (!o.out.empty()) write_whole_file(o.out, power_fit_json(result).dump(2) + "\n");
   std::fputs((o.json ? power_fit_json(result).dump(2) + "\n" : power_fit_text(result)).c_str(), stdout);
 }

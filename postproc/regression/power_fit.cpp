@@ -102,9 +102,31 @@ void add_notes(PowerFit& fit) {
   if (fit.equation.provisional) fit.notes.push_back("provisional: a material card is not calibrated yet");
 }
 
-}  // namespace
+// The errors of the equations over the rows of a long table.
+void add_long_errors(const PowerStream& stream, PowerFit& fit) {
+  RelativeErrorSum booklet, check;
+  const Equation& e = fit.equation;
+  stream.for_each([&](const PowerStream::Row& row) {
+    if (row.check == 0) {
+      booklet.add(row.power, row.booklet);
+      return;
+    }
+    Eigen::VectorXd x = Eigen::VectorXd::Ones(e.parameters.size());
+    for (Eigen::Index j = 1; j < x.size(); ++j) x[j] = std::log(row.groups[group_of_coefficient(e.names[j])]);
+    for (const Alias& a : e.aliases) {
+      const auto own = std::find(e.names.begin(), e.names.end(), a.name) - e.names.begin();
+      constexpr double kSlack = 1e-3;
+      if (std::fabs(x[own] - a.constant - a.weights.dot(x.tail(x.size() - 1))) > kSlack)
+        throw BadInput(fit.data.check.front().file, 0, fmt::format("holds rows of role check that need {} apart, which the fit does not determine", a.name),
+                       fmt::format("fit rows that tell it apart, or fix it (--fix {}=VALUE)", a.name));
+    }
+    check.add(row.power, std::exp(x.dot(e.parameters)) * (e.number == PowerNumber::n_pc ? row.scale_n_pc : row.scale_n_p));
+  });
+  fit.booklet_errors = booklet.errors();
+  fit.check_errors = check.errors();
+}
 
-PowerFit fit_power(const PowerFitRequest& request, PowerData all_rows) {
+PowerFit fit_rows(const PowerFitRequest& request, PowerData all_rows, const PowerStream* stream) {
   PowerFit fit;
   fit.request = request;
   fit.data = std::move(all_rows);
@@ -119,7 +141,7 @@ PowerFit fit_power(const PowerFitRequest& request, PowerData all_rows) {
     if (name != "B0") chosen.insert(group_of_coefficient(name));
   std::vector<int> groups;
   Equation& equation = fit.equation;
-  for (int g = 0; g < kGroupCount; ++g) equation.group_range[g] = range_over(rows, g);
+  for (int g = 0; g < kGroupCount; ++g) equation.group_range[g] = stream ? stream->group_range[g] : range_over(rows, g);
   for (const int g : chosen) {
     if (!equation.group_range[g])
       throw BadInput(file, 0, fmt::format("has rows without {}", kGroupNames[g]), "give " + needed_for(g));
@@ -147,6 +169,19 @@ PowerFit fit_power(const PowerFitRequest& request, PowerData all_rows) {
     equation.lever = {std::min(equation.lever.low, row.mixer.lever), std::max(equation.lever.high, row.mixer.lever)};
     equation.provisional = equation.provisional || row.material.provisional;
   }
+  if (stream) {
+    equation.lever = stream->lever;
+    equation.provisional = stream->provisional;
+    problem.all_rows = [&](const PowerLawProblem::UseRow& use) {
+      std::vector<double> logs(groups.size());
+      stream->for_each([&](const PowerStream::Row& row) {
+        if (row.check != 0) return;
+        for (std::size_t j = 0; j < groups.size(); ++j) logs[j] = std::log(row.groups[groups[j]]);
+        const double scale = request.number == PowerNumber::n_pc ? row.scale_n_pc : row.scale_n_p;
+        use(logs.data(), row.power / scale, row.u / scale);
+      });
+    };
+  }
   problem.observed = fit.number;
   if (request.weighted) problem.covariance = inverse_scale.asDiagonal() * data.covariance * inverse_scale.asDiagonal();
   try {
@@ -167,6 +202,13 @@ PowerFit fit_power(const PowerFitRequest& request, PowerData all_rows) {
   equation.scatter = fit.law.relative_scatter;
   equation.aliases = fit.law.aliases;
 
+  if (stream) {
+    add_long_errors(*stream, fit);
+    add_notes(fit);
+    if (fit.law.rows > n) fit.notes.push_back(fmt::format("residuals and their tables are of {} of the {} rows", n, fit.law.rows));
+    return fit;
+  }
+
   Eigen::VectorXd booklet(n), power(n);
   for (Eigen::Index i = 0; i < n; ++i) {
     const PowerRow& row = rows[i];
@@ -184,10 +226,17 @@ PowerFit fit_power(const PowerFitRequest& request, PowerData all_rows) {
       predicted[i] = predict(equation, row.file, row.groups, *row.observation.speed, row.mixer, row.material).power;
     }
     fit.check_errors = relative_errors(observed, predicted);
+    fit.check_power = predicted;
   }
   add_notes(fit);
   return fit;
 }
+
+}  // namespace
+
+PowerFit fit_power(const PowerFitRequest& request, PowerData data) { return fit_rows(request, std::move(data), nullptr); }
+
+PowerFit fit_power(const PowerFitRequest& request, const PowerStream& stream) { return fit_rows(request, stream.sample, &stream); }
 
 std::optional<double> booklet_value(const PowerFit& fit, const Coefficient& c) {
   // The factor stands for the booklet's groups only.

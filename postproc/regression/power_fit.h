@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "power_equation.h"
+#include "power_stream.h"
 
 namespace vielto {
 
@@ -27,12 +28,17 @@ struct PowerFit {
   std::vector<int> merged;           // groups asked for that are constant: in B0
   Eigen::VectorXd number, number_u;  // of the fit rows
   RelativeErrors check_errors;       // of the rows of role `check`
+  Eigen::VectorXd check_power;       // W, predicted for them; empty for a stream
   RelativeErrors booklet_errors;     // of the booklet's equation against the fit rows
   std::vector<std::string> notes;    // what a reader must know, a line each
 };
 
 // Errors: BadInput (naming the first table) for rows that do not allow the fit or lack a group that is asked for.
 PowerFit fit_power(const PowerFitRequest& request, PowerData data);
+
+// The same of tables of any length. Coefficients, statistics and errors are of all rows; data.fit, number, and the
+// residuals written out are of the stream's sample (a note says so if it is not all of them).
+PowerFit fit_power(const PowerFitRequest& request, const PowerStream& stream);
 
 // The booklet's value of a coefficient or combination of the fit; nothing where the booklet has none.
 std::optional<double> booklet_value(const PowerFit& fit, const Coefficient& coefficient);

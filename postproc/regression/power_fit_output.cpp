@@ -142,7 +142,7 @@ json power_fit_json(const PowerFit& fit) {
                                 {"mean_relative_deviation", level.mean},
                                 {"max_relative_deviation", level.maximum}});
 
-  json statistics = {{"rows", fit.number.size()},
+  json statistics = {{"rows", law.rows},
                      {"degrees_of_freedom", law.degrees_of_freedom},
                      {"r2", law.r2},
                      {"adjusted_r2", law.adjusted_r2},
@@ -191,14 +191,18 @@ json power_fit_json(const PowerFit& fit) {
       {"notes", fit.notes},
       {"prediction", to_json(fit.equation)}};
   if (!fit.data.check.empty()) result["check"] = errors_json(fit.check_errors);
+  for (Eigen::Index i = 0; i < fit.check_power.size(); ++i) {
+    const Observation& o = fit.data.check[static_cast<std::size_t>(i)].observation;
+    result["check_rows"].push_back({{"test", o.test}, {"power", o.value}, {"u", o.u}, {"predicted_power", fit.check_power[i]}});
+  }
   return result;
 }
 
 std::string power_fit_text(const PowerFit& fit) {
   const PowerLawFit& law = fit.law;
   std::string text =
-      fmt::format("{}\n{} rows, errors {}, weights {}, 95 % intervals from {}\n\n", equation_text(fit),
-                  fit.number.size(), objective_name(fit.request.objective),
+      fmt::format("{}\n{} rows, errors {}, weights {}, 95 % intervals from {}\n\n", equation_text(fit), law.rows,
+                  objective_name(fit.request.objective),
                   weighted(fit) ? (fit.data.covariance_paths.empty() ? "u" : "u and covariance") : "equal",
                   law.interval_basis == "u" ? "u" : "the scatter of the rows");
   const auto line = [&](const Coefficient& c, const std::string& group) {

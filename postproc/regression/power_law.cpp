@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <tuple>
+#include <utility>
 
 #include "nonlinear_least_squares.h"
 #include "statistics.h"
@@ -141,11 +143,112 @@ void add_combinations(const PowerLawProblem& problem, PowerLawFit& fit) {
   }
 }
 
+// Sums over rows, one at a time, for the statistics of a fit.
+struct Sums {
+  double n = 0, squares = 0, loo_squares = 0, scatter = 0, mean = 0, total = 0;
+  RelativeErrorSum errors, leave_one_out;
+
+  void add(double y, double fitted, double without) {
+    ++n;
+    const double before = y - mean;
+    mean += before / n;
+    total += before * (y - mean);
+    squares += (y - fitted) * (y - fitted);
+    loo_squares += (y - without) * (y - without);
+    scatter += (y / fitted - 1) * (y / fitted - 1);
+    errors.add(y, fitted);
+    leave_one_out.add(y, without);
+  }
+};
+
+// How a row enters the least squares at the logarithm `log_f` of its model value: whitened residual, and the factor that
+// makes a design row its whitened derivative.
+struct WhitenedRow {
+  double residual = 0, factor = 0;
+};
+
+WhitenedRow whitened(Objective objective, double log_f, double y, double u) {
+  const double f = std::exp(log_f);
+  switch (objective) {
+    case Objective::log: return {(std::log(y) - log_f) * y / u, y / u};
+    case Objective::relative: return {1 - f / y, f / y};
+    case Objective::absolute: break;
+  }
+  return {(y - f) / u, f / u};
+}
+
+// All rows of a long table in the coordinates of the fit: offset and design row of a row's groups.
+class LongTable {
+ public:
+  LongTable(const PowerLawProblem& problem, bool weighted, const Eigen::MatrixXd& to_design, const Eigen::VectorXd& means,
+            const Eigen::VectorXd& fixed)
+      : problem_(problem), weighted_(weighted), to_design_(to_design), means_(means), fixed_(fixed) {}
+
+  // use(ln groups with a leading 1, design row, offset of ln f, y, u)
+  template <class Use>
+  void for_each(Use use) const {
+    const Eigen::Index k = problem_.log_groups.cols();
+    Eigen::VectorXd logs = Eigen::VectorXd::Ones(k + 1);
+    problem_.all_rows([&](const double* groups, double y, double u) {
+      for (Eigen::Index j = 0; j < k; ++j) logs[j + 1] = groups[j];
+      const double log_unit = problem_.objective == Objective::log ? y : 1;  // rows alike: u = 1 of what is compared
+      use(logs, Eigen::VectorXd(to_design_ * logs - means_), fixed_.dot(logs), y, weighted_ ? u : log_unit);
+    });
+  }
+
+  // Gauss-Newton from `fit` until the step is nothing against the standard errors.
+  void refine(NonlinearFit& fit) const {
+    const Eigen::Index p = fit.parameters.size();
+    constexpr int kMostSteps = 30;
+    for (int step = 0; step < kMostSteps; ++step) {
+      Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(p, p);
+      Eigen::VectorXd gradient = Eigen::VectorXd::Zero(p);
+      double chi2 = 0;
+      Eigen::Index n = 0;
+      for_each([&](const Eigen::VectorXd&, const Eigen::VectorXd& x, double offset, double y, double u) {
+        const WhitenedRow row = whitened(problem_.objective, offset + x.dot(fit.parameters), y, u);
+        normal.noalias() += row.factor * row.factor * x * x.transpose();
+        gradient.noalias() += row.factor * row.residual * x;
+        chi2 += row.residual * row.residual;
+        ++n;
+      });
+      const Eigen::LDLT<Eigen::MatrixXd> solver(normal);
+      const Eigen::VectorXd change = solver.solve(gradient);
+      fit.covariance = solver.solve(Eigen::MatrixXd::Identity(p, p));
+      fit.chi2 = chi2;
+      fit.degrees_of_freedom = n - p;
+      if (!change.allFinite() || !fit.covariance.allFinite()) break;
+      // Its length in standard errors, of which the rows' rounding leaves some 1e-10.
+      const double length = std::sqrt(std::max(0.0, change.dot(gradient)));
+      if (length < 1e-7) return;
+      fit.parameters += change;
+    }
+    throw std::runtime_error("the sums over all rows do not come to a minimum from the fit of a sample of them");
+  }
+
+ private:
+  const PowerLawProblem& problem_;
+  bool weighted_;
+  Eigen::MatrixXd to_design_;  // p x (k + 1), of (1, ln groups)
+  Eigen::VectorXd means_, fixed_;
+};
+
 }  // namespace
 
+void RelativeErrorSum::add(double observed, double predicted) {
+  const double error = predicted / observed - 1;
+  ++rows_;
+  mean_ += (std::fabs(error) - mean_) / rows_;
+  mean_square_ += (error * error - mean_square_) / rows_;
+  maximum_ = std::max(maximum_, std::fabs(error));
+}
+
+RelativeErrors RelativeErrorSum::errors() const { return {mean_, std::sqrt(mean_square_), maximum_}; }
+
 RelativeErrors relative_errors(const Eigen::VectorXd& observed, const Eigen::VectorXd& predicted) {
-  const Eigen::ArrayXd e = (predicted.array() / observed.array() - 1).abs();
-  return {e.mean(), std::sqrt(e.square().mean()), e.maxCoeff()};
+  RelativeErrorSum sum;
+  for (Eigen::Index i = 0; i < observed.size(); ++i) sum.add(observed[i], predicted[i]);
+  return sum.errors();
 }
 
 PowerLawFit fit_power_law(const PowerLawProblem& problem) {
@@ -216,7 +319,35 @@ PowerLawFit fit_power_law(const PowerLawProblem& problem) {
     return true;
   };
   const Eigen::VectorXd target = log ? log_y : relative ? Eigen::VectorXd(Eigen::VectorXd::Ones(n)) : y;
-  const NonlinearFit solution = nonlinear_least_squares_of(model, target, weights, start);
+  NonlinearFit solution = nonlinear_least_squares_of(model, target, weights, start);
+
+  // The same coordinates for all rows of a long table: design row = to_design (1, ln groups) - means.
+  Eigen::MatrixXd to_design = Eigen::MatrixXd::Zero(p, k + 1);
+  Eigen::VectorXd means = Eigen::VectorXd::Zero(p), fixed_part = Eigen::VectorXd::Zero(k + 1);
+  if (free_factor) to_design(0, 0) = 1;
+  for (std::size_t j = 0; j < aliasing.kept.size(); ++j) {
+    const Eigen::Index column = constants + static_cast<Eigen::Index>(j);
+    to_design(column, aliasing.kept[j] + 1) = 1;
+    means[column] = free_factor ? problem.log_groups.col(aliasing.kept[j]).mean() : 0;
+  }
+  if (!free_factor) fixed_part[0] = std::log(fixed_factor->second);
+  for (Eigen::Index j = 0; j < k; ++j)
+    if (const auto fixed = problem.fixed.find(problem.names[j]); fixed != problem.fixed.end()) fixed_part[j + 1] = fixed->second;
+  const LongTable all(problem, weighted, to_design, means, fixed_part);
+  if (problem.all_rows) {
+    all.refine(solution);
+    // What the sample does not tell apart, no row may.
+    all.for_each([&](const Eigen::VectorXd& logs, const Eigen::VectorXd&, double, double, double) {
+      for (const auto& [column, weight] : aliasing.aliases) {
+        double value = free_factor ? weight[0] : 0;
+        for (std::size_t j = 0; j < aliasing.kept.size(); ++j) value += weight[constants + static_cast<Eigen::Index>(j)] * logs[aliasing.kept[j] + 1];
+        constexpr double kSlack = 1e-5;
+        if (std::fabs(logs[column + 1] - value) > kSlack)
+          throw std::invalid_argument("few rows tell coefficients apart that a sample of the rows does not; give those rows a table of their own");
+      }
+    });
+  }
+  fit.rows = static_cast<long>(solution.degrees_of_freedom + p);
 
   fit.degrees_of_freedom = static_cast<int>(solution.degrees_of_freedom);
   fit.chi2 = weighted ? solution.chi2 : 0;
@@ -256,33 +387,52 @@ PowerLawFit fit_power_law(const PowerLawProblem& problem) {
   }
   add_combinations(problem, fit);
 
-  const auto number_at = [&](Eigen::Index i, const Eigen::VectorXd& b) {
-    return std::exp(offset[i] + design.row(i).dot(b));
+  // A row fitted without itself; q = v - step.vj is what is left of its weight v.
+  const auto without = [&](double log_f, const Eigen::VectorXd& x, const Eigen::VectorXd& step, double q, double v, double vr) {
+    // A row that alone determines a coefficient is out of reach of the equation fitted without it.
+    return q > 1e-12 * v ? std::exp(log_f - x.dot(step) * (vr / q)) : std::numeric_limits<double>::infinity();
   };
-  const Eigen::MatrixXd vj = weights.precision_times(solution.jacobian);  // V^-1 J
-  const Eigen::VectorXd vr = weights.precision_times(solution.residuals);
-  const Eigen::VectorXd v = weights.precision_diagonal();
+  Sums sums;
   fit.fitted.resize(n);
   fit.leave_one_out.resize(n);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    fit.fitted[i] = number_at(i, solution.parameters);
-    // At the minimum J' V^-1 r = 0, so Q r = V^-1 r.
-    const Eigen::VectorXd step = solution.covariance * vj.row(i).transpose();
-    const double q = v[i] - vj.row(i).dot(step);
-    // A row that alone determines a coefficient is out of reach of the equation fitted without it.
-    fit.leave_one_out[i] = q > 1e-12 * v[i] ? number_at(i, solution.parameters - step * (vr[i] / q))
-                                            : std::numeric_limits<double>::infinity();
+  if (problem.all_rows) {
+    const auto of_row = [&](const Eigen::VectorXd& x, double row_offset, double observed, double u) {
+      const double log_f = row_offset + x.dot(solution.parameters);
+      const WhitenedRow row = whitened(problem.objective, log_f, observed, u);
+      const Eigen::VectorXd step = solution.covariance * x * row.factor;
+      return std::pair(std::exp(log_f), without(log_f, x, step, 1 - row.factor * x.dot(step), 1, row.residual));
+    };
+    all.for_each([&](const Eigen::VectorXd&, const Eigen::VectorXd& x, double row_offset, double observed, double u) {
+      const auto [fitted, left_out] = of_row(x, row_offset, observed, u);
+      sums.add(observed, fitted, left_out);
+    });
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const double alike = log ? y[i] : 1;
+      const double u = weighted ? std::sqrt(problem.covariance.coeff(static_cast<int>(i), static_cast<int>(i))) : alike;
+      std::tie(fit.fitted[i], fit.leave_one_out[i]) = of_row(design.row(i), offset[i], y[i], u);
+    }
+  } else {
+    const Eigen::MatrixXd vj = weights.precision_times(solution.jacobian);  // V^-1 J
+    const Eigen::VectorXd vr = weights.precision_times(solution.residuals);
+    const Eigen::VectorXd v = weights.precision_diagonal();
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const double log_f = offset[i] + design.row(i).dot(solution.parameters);
+      fit.fitted[i] = std::exp(log_f);
+      // At the minimum J' V^-1 r = 0, so Q r = V^-1 r.
+      const Eigen::VectorXd step = solution.covariance * vj.row(i).transpose();
+      fit.leave_one_out[i] = without(log_f, design.row(i), step, v[i] - vj.row(i).dot(step), v[i], vr[i]);
+      sums.add(y[i], fit.fitted[i], fit.leave_one_out[i]);
+    }
   }
 
-  const auto dof = static_cast<double>(fit.degrees_of_freedom), rows = static_cast<double>(n);
-  const double sum = (y - fit.fitted).squaredNorm(), total = (y.array() - y.mean()).square().sum();
-  fit.r2 = total > 0 ? 1 - sum / total : 0;
-  fit.adjusted_r2 = total > 0 ? 1 - (sum / dof) / (total / (rows - 1)) : 0;
-  fit.rmse = std::sqrt(sum / rows);
-  fit.leave_one_out_rmse = std::sqrt((y - fit.leave_one_out).squaredNorm() / rows);
-  fit.relative_scatter = std::sqrt((y.array() / fit.fitted.array() - 1).square().sum() / dof);
-  fit.errors = relative_errors(y, fit.fitted);
-  fit.leave_one_out_errors = relative_errors(y, fit.leave_one_out);
+  const auto dof = static_cast<double>(fit.degrees_of_freedom);
+  fit.r2 = sums.total > 0 ? 1 - sums.squares / sums.total : 0;
+  fit.adjusted_r2 = sums.total > 0 ? 1 - (sums.squares / dof) / (sums.total / (sums.n - 1)) : 0;
+  fit.rmse = std::sqrt(sums.squares / sums.n);
+  fit.leave_one_out_rmse = std::sqrt(sums.loo_squares / sums.n);
+  fit.relative_scatter = std::sqrt(sums.scatter / dof);
+  fit.errors = sums.errors.errors();
+  fit.leave_one_out_errors = sums.leave_one_out.errors();
   return fit;
 }
 

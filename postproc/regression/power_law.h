@@ -25,6 +25,7 @@
 
 #include <Eigen/Dense>
 #include <Eigen/SparseCore>
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -40,6 +41,12 @@ struct PowerLawProblem {
   std::vector<std::string> names;          // k: "B1" ...
   Objective objective = Objective::absolute;
   std::map<std::string, double> fixed;  // coefficient by name; "B0" is B0 itself
+
+  // Many rows: those above are a sample, and this calls back for each of all the independent rows (ln of the chosen
+  // groups, number, its u), as often as asked. The sample gives the start and what is told apart; coefficients,
+  // covariance and statistics are of all rows, by Gauss-Newton steps whose normal equations are summed row by row.
+  using UseRow = std::function<void(const double* log_groups, double observed, double u)>;
+  std::function<void(const UseRow&)> all_rows;
 };
 
 struct Coefficient {
@@ -61,6 +68,16 @@ struct RelativeErrors {
   double mean = 0, root_mean_square = 0, maximum = 0;  // of |f/y - 1|
 };
 
+// The same, one row at a time.
+class RelativeErrorSum {
+ public:
+  void add(double observed, double predicted);
+  RelativeErrors errors() const;
+
+ private:
+  double rows_ = 0, mean_ = 0, mean_square_ = 0, maximum_ = 0;
+};
+
 struct PowerLawFit {
   std::vector<std::string> names;  // "B0", then those of the problem
   Eigen::VectorXd parameters;      // ln B0 and the exponents; 0 where the exponent is an alias
@@ -76,6 +93,7 @@ struct PowerLawFit {
   int columns = 0, rank = 0;              // of the design of the free coefficients
   double condition = 0;                   // of the centred design with columns of length 1; infinite for exact aliases
 
+  long rows = 0;                          // fitted; of these the n of the problem are a sample if there are more
   Eigen::VectorXd fitted, leave_one_out;  // n, f of the equation, and of the equation fitted without the row
   int degrees_of_freedom = 0;
   double chi2 = 0, chi2_exceedance = 0;  // 0 and 1 if the rows have no weights

@@ -14,16 +14,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
+using Key = std::pair<std::string, std::string>;  // test, observable
+
+}  // namespace
+
 std::string covariance_file(const std::string& path) {
   const fs::path own = fs::path(path).replace_extension(".covariance.csv");
   if (fs::exists(own)) return own.string();
   const fs::path common = fs::path(path).parent_path() / "covariance.csv";
   return fs::exists(common) ? common.string() : "";
 }
-
-using Key = std::pair<std::string, std::string>;  // test, observable
-
-}  // namespace
 
 ReducedTable read_reduced_table(const std::string& path) {
   const std::vector<Observation> read = read_observations(path);

@@ -26,6 +26,9 @@ struct ReducedTable {
   Eigen::SparseMatrix<double> covariance;  // both triangles
 };
 
+// The covariance file of a table; empty: there is none.
+std::string covariance_file(const std::string& table);
+
 // Errors: BadInput for a table or covariance file that is refused, and for power_loaded without power_idle or power.
 ReducedTable read_reduced_table(const std::string& path);
 
