@@ -139,21 +139,44 @@ struct Load {
   Vec moment;     // N m
 };
 
-/* One step of a contact. Returns false where the contact has ended: no load, and the memory is to be forgotten. */
-inline bool advance(const Contact& c, const Motion& m, double dt, Memory& memory, Load& load) {
-  double Fn = c.kn * m.overlap;
-  if (-Fn > (memory.bonded ? c.normalAdhesion : 0.0)) return false;
+/* Energies of one contact, J: what its springs hold after the step, and what the step took out of them. A bond that
+   breaks, or a contact that ends, lets go what was held: booked with sliding. */
+struct Energy {
+  double elastic;
+  double sliding, rolling, twisting;
+};
 
-  memory.shear = vielto::turned_with_contact(memory.shear, m.n, m.spinAngle) - (c.ks * dt) * m.slip;
+inline double held(double force, double k) { return k > 0 ? 0.5 * force * force / k : 0.0; }
+inline double held(const Vec& force, double k) { return k > 0 ? 0.5 * dot(force, force) / k : 0.0; }
+
+inline double held(const Contact& c, double Fn, const Memory& memory) {
+  return held(Fn, c.kn) + held(memory.shear, c.ks) + held(memory.rolling, c.kr) + held(memory.twist, c.ktw);
+}
+
+/* One step of a contact. Returns false where the contact has ended: no load, and the memory is to be forgotten.
+   `energy`, if asked for, is of this step. */
+inline bool advance(const Contact& c, const Motion& m, double dt, Memory& memory, Load& load, Energy* energy = nullptr) {
+  double Fn = c.kn * m.overlap;
+  if (-Fn > (memory.bonded ? c.normalAdhesion : 0.0)) {
+    if (energy) *energy = {0, held(c, memory.bonded ? Fn : 0.0, memory), 0, 0};
+    return false;
+  }
+
+  const Vec shear = vielto::turned_with_contact(memory.shear, m.n, m.spinAngle);
+  memory.shear = shear - (c.ks * dt) * m.slip;
+  double letGo = 0;
   const double friction = Fn * c.tanPhi;
   const double limit = std::max((memory.bonded ? c.shearAdhesion : 0.0) + friction, 0.0);
   if (dot(memory.shear, memory.shear) > limit * limit) {
     memory.bonded = false;
     vielto::cap(memory.shear, std::max(friction, 0.0));
+    if (Fn < 0) letGo = held(Fn, c.kn);
     Fn = std::max(Fn, 0.0);
   }
 
-  memory.rolling = vielto::turned_with_contact(memory.rolling, m.n, m.spinAngle) - (c.kr * dt) * m.rolling;
+  const Vec rolling = vielto::turned_with_contact(memory.rolling, m.n, m.spinAngle);
+  const double twist = memory.twist;
+  memory.rolling = rolling - (c.kr * dt) * m.rolling;
   memory.twist -= c.ktw * dt * m.twisting;
   if (c.rollingArm >= 0) vielto::cap(memory.rolling, c.rollingArm * std::fabs(Fn));
   if (c.twistingArm >= 0) {
@@ -163,8 +186,17 @@ inline bool advance(const Contact& c, const Motion& m, double dt, Memory& memory
   load.normal = Fn;
   load.shear = memory.shear;
   load.moment = memory.rolling + memory.twist * m.n;
+  if (energy) {
+    energy->elastic = held(c, Fn, memory);
+    energy->sliding = letGo + vielto::capped_spring_loss(shear, memory.shear, m.slip, dt, c.ks);
+    energy->rolling = vielto::capped_spring_loss(rolling, memory.rolling, m.rolling, dt, c.kr);
+    energy->twisting = vielto::capped_spring_loss(twist, memory.twist, m.twisting, dt, c.ktw);
+  }
   return true;
 }
+
+// The springs of a contact, for its shortest half period.
+inline vielto::Springs springs(const Contact& c) { return {c.kn, c.ks, c.kr, c.ktw}; }
 
 // Longest stretch of a bond over R_1 (wall) or R_1 + R_2: a bound for all radii, a_n/k_n <= C_n/E times either.
 inline double stretch_bound(double normalCohesion, double youngMin) { return normalCohesion / youngMin; }

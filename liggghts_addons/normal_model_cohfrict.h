@@ -9,11 +9,10 @@
      avoidRatcheting on|off   on (as Yade): the scaled slip between spheres; walls never have it
      wallRadiusFactor VALUE   R_2/R_1 of a wall, default 2 (what Yade takes for a facet)
 
-   Properties, one value a type: youngsModulus, stiffnessRatio, frictionAngle as ViElTo; alphaKr, alphaKtw >= 0, etaRoll,
-   etaTwist (any, < 0: no limit), normalCohesion, shearCohesion >= 0 (Pa).
+   Properties: cohfrict_properties.h.
 
    History, per contact: tangential force (3), rolling moment (3), both on body i; twisting moment along n; state: 0 none,
-   1 bonded, 2 touching. `fix vielto/record` keeps no energy accounts of this law. */
+   1 bonded, 2 touching. */
 #ifdef NORMAL_MODEL
 NORMAL_MODEL(COHFRICT, cohfrict, 21)
 #else
@@ -22,15 +21,12 @@ NORMAL_MODEL(COHFRICT, cohfrict, 21)
 
 #include <math.h>
 
-#include <algorithm>
-#include <limits>
-#include <vector>
-
-#include "cohfrict_law.h"
+#include "cohfrict_properties.h"
 #include "contact_models.h"
 #include "neighbor.h"
 #include "normal_model_base.h"
-#include "vielto_properties.h"
+#include "vielto_overlap.h"
+#include "vielto_state.h"
 #include "vielto_stop.h"
 #include "vielto_wall_motion.h"
 
@@ -45,7 +41,7 @@ class NormalModel<COHFRICT> : public NormalModelBase {
         bondNewContacts_(false),
         avoidRatcheting_(true),
         wallRadiusFactor_(2.0),
-        types_(0),
+        tally_(vielto::tally()),
         wall_(lmp) {
     offset_ = hsetup->add_history_value("cohfrict_Fsx", "1");
     hsetup->add_history_value("cohfrict_Fsy", "1");
@@ -62,14 +58,19 @@ class NormalModel<COHFRICT> : public NormalModelBase {
     settings.registerOnOff("bondNewContacts", bondNewContacts_, false);
     settings.registerOnOff("avoidRatcheting", avoidRatcheting_, true);
     settings.registerDoubleSetting("wallRadiusFactor", wallRadiusFactor_, 2.0);
+    settings.registerDoubleSetting("maxOverlap", overlaps_.limit, 0.0);
   }
 
-  void postSettings(IContactHistorySetup*, ContactModelBase*) {
+  void postSettings(IContactHistorySetup*, ContactModelBase* cmb) {
     if (!(wallRadiusFactor_ > 0)) vielto::stop_all(lmp, "cohfrict: wallRadiusFactor must be > 0 (default 2)");
+    if (!(overlaps_.limit >= 0)) vielto::stop_all(lmp, "cohfrict: maxOverlap must be >= 0 (0: no limit)");
+    if (!cmb->is_wall()) vielto::settings() = {1.0, wallRadiusFactor_, vielto::COHFRICT_LAW};
   }
 
   void connectToProperties(PropertyRegistry&) {
-    read_materials();
+    pairs_.read(lmp);
+    // 1.1: the step in which a bond is seen to be broken has to be seen too
+    if (bondNewContacts_) neighbor->register_contact_dist_factor(1 + 1.1 * pairs_.stretch_bound());
     if (force->cg_active()) error->cg(FLERR, "model cohfrict");
   }
 
@@ -83,6 +84,7 @@ class NormalModel<COHFRICT> : public NormalModelBase {
     sidata.Fn = 0.0;
     if (sidata.contact_flags) *sidata.contact_flags |= CONTACT_NORMAL_MODEL;
     evaluate(sidata, n, sidata.deltan, bonded, sidata.Fn, i_forces, j_forces);
+    if (sidata.computeflag && sidata.shearupdate) overlaps_.note(lmp, sidata, vielto::smaller_diameter(sidata));
   }
 
   // A stretched bond. LIGGGHTS calls this up to the contact distance that connectToProperties asked for.
@@ -114,7 +116,7 @@ class NormalModel<COHFRICT> : public NormalModelBase {
                 ForceData& j_forces) {
     using vielto::Vec;
     const double R1 = data.radi, R2 = data.is_wall ? wallRadiusFactor_ * R1 : data.radj;
-    const cohfrict::Contact c = cohfrict::contact(pairs_[data.itype * types_ + data.jtype], R1, R2);
+    const cohfrict::Contact c = cohfrict::contact(pairs_(data.itype, data.jtype), R1, R2);
     // LIGGGHTS hands over spins of touching grains only
     const Vec wi = vec(atom->omega[data.i]);
     const Vec wj = data.is_wall ? wall_.spin(data) : vec(atom->omega[data.j]);
@@ -135,8 +137,10 @@ class NormalModel<COHFRICT> : public NormalModelBase {
     cohfrict::Load load;
     // between runs forces are computed anew, but nothing moves on
     const bool moves = data.computeflag && data.shearupdate;
-    const bool holds = cohfrict::advance(c, m, moves ? dt : 0.0, memory, load);
+    cohfrict::Energy energy;
+    const bool holds = cohfrict::advance(c, m, moves ? dt : 0.0, memory, load, tally_.energy && moves ? &energy : nullptr);
     if (moves) {
+      if (tally_.energy) book(energy, vielto::share(data, atom->nlocal, force->newton_pair));
       for (int k = 0; k < VALUES; k++) history[k] = 0.0;
       if (holds) {
         put(memory.shear, history);
@@ -161,34 +165,11 @@ class NormalModel<COHFRICT> : public NormalModelBase {
     return true;
   }
 
-  void read_materials() {
-    using vielto::PropertyRule;
-    const double inf = std::numeric_limits<double>::infinity();
-    const PropertyRule* const rules = vielto::property_rules();
-    const PropertyRule own[] = {{"alphaKr", 0, inf, true, false, "1"},         {"alphaKtw", 0, inf, true, false, "1"},
-                                {"etaRoll", -inf, inf, false, false, "1"},     {"etaTwist", -inf, inf, false, false, "1"},
-                                {"normalCohesion", 0, inf, true, false, "Pa"}, {"shearCohesion", 0, inf, true, false, "Pa"}};
-    const std::vector<double> E = vielto::read_property(lmp, rules[vielto::YOUNG]),
-                              nu = vielto::read_property(lmp, rules[vielto::RATIO]),
-                              phi = vielto::read_property(lmp, rules[vielto::FRICTION]);
-    std::vector<double> v[6];
-    for (int k = 0; k < 6; k++) v[k] = vielto::read_property(lmp, own[k]);
-    types_ = atom->ntypes + 1;
-    std::vector<cohfrict::Material> materials(types_);
-    double youngMin = inf, cohesionMax = 0;
-    for (int t = 1; t < types_; t++) {
-      const cohfrict::Material m = {E[t],    nu[t],   phi[t] * acos(-1.0) / 180, v[0][t], v[1][t],
-                                    v[2][t], v[3][t], v[4][t],                   v[5][t]};
-      materials[t] = m;
-      youngMin = std::min(youngMin, E[t]);
-      cohesionMax = std::max(cohesionMax, v[4][t]);
-    }
-    pairs_.resize(types_ * types_);
-    for (int i = 1; i < types_; i++)
-      for (int j = 1; j < types_; j++) pairs_[i * types_ + j] = cohfrict::mix(materials[i], materials[j]);
-    // 1.1: the step in which a bond is seen to be broken has to be seen too
-    if (bondNewContacts_)
-      neighbor->register_contact_dist_factor(1 + 1.1 * cohfrict::stretch_bound(cohesionMax, youngMin));
+  void book(const cohfrict::Energy& energy, double share) {
+    tally_.elastic += share * energy.elastic;
+    tally_.sliding += share * energy.sliding;
+    tally_.rolling += share * energy.rolling;
+    tally_.twisting += share * energy.twisting;
   }
 
   static vielto::Vec vec(const double* a) { return {a[0], a[1], a[2]}; }
@@ -198,8 +179,9 @@ class NormalModel<COHFRICT> : public NormalModelBase {
   int offset_;
   bool bondNewContacts_, avoidRatcheting_;
   double wallRadiusFactor_;
-  int types_;
-  std::vector<cohfrict::Pair> pairs_;
+  vielto::OverlapWatch overlaps_;
+  cohfrict::PairTable pairs_;
+  vielto::Tally& tally_;
   vielto::WallMotion wall_;
 };
 

@@ -17,10 +17,9 @@ NORMAL_MODEL(VIELTO, vielto, 20)
 #define NORMAL_MODEL_VIELTO_H
 
 #include "contact_models.h"
-#include "fix_mesh_surface.h"
 #include "neighbor.h"
 #include "normal_model_base.h"
-#include "tri_mesh.h"
+#include "vielto_overlap.h"
 #include "vielto_properties.h"
 #include "vielto_state.h"
 #include "vielto_stop.h"
@@ -35,29 +34,28 @@ class NormalModel<VIELTO> : public NormalModelBase {
       : NormalModelBase(lmp, hsetup, c),
         springFactor_(4.0),
         wallRadiusFactor_(2.0),
-        maxOverlap_(0.0),
         limitForce_(false),
         tally_(vielto::tally()) {}
 
   void registerSettings(::Settings& settings) {
     settings.registerDoubleSetting("springFactor", springFactor_, 4.0);
     settings.registerDoubleSetting("wallRadiusFactor", wallRadiusFactor_, 2.0);
-    settings.registerDoubleSetting("maxOverlap", maxOverlap_, 0.0);
+    settings.registerDoubleSetting("maxOverlap", overlaps_.limit, 0.0);
     settings.registerOnOff("limitForce", limitForce_, false);
   }
 
   void postSettings(IContactHistorySetup*, ContactModelBase* cmb) {
     if (!(springFactor_ > 0)) vielto::stop_all(lmp, "vielto: springFactor must be > 0 (4 as printed, or 1)");
     if (!(wallRadiusFactor_ > 0)) vielto::stop_all(lmp, "vielto: wallRadiusFactor must be > 0 (default 2)");
-    if (!(maxOverlap_ >= 0)) vielto::stop_all(lmp, "vielto: maxOverlap must be >= 0 (0: no limit)");
+    if (!(overlaps_.limit >= 0)) vielto::stop_all(lmp, "vielto: maxOverlap must be >= 0 (0: no limit)");
     vielto::Settings& shared = vielto::settings();
-    if (cmb->is_wall() && shared.chosen &&
+    if (cmb->is_wall() && shared.law == vielto::VIELTO_LAW &&
         (shared.springFactor != springFactor_ || shared.wallRadiusFactor != wallRadiusFactor_))
       error->warning(FLERR, "vielto: springFactor or wallRadiusFactor of this wall differs from pair_style's");
     if (!cmb->is_wall()) {
       shared.springFactor = springFactor_;
       shared.wallRadiusFactor = wallRadiusFactor_;
-      shared.chosen = true;
+      shared.law = vielto::VIELTO_LAW;
     }
   }
 
@@ -87,7 +85,7 @@ class NormalModel<VIELTO> : public NormalModelBase {
     sidata.gammat = s.gammaS;
 
     if (sidata.computeflag && sidata.shearupdate) {
-      const double diameter = 2 * (sidata.is_wall || sidata.radi < sidata.radj ? sidata.radi : sidata.radj);
+      const double diameter = vielto::smaller_diameter(sidata);
       const bool record = sidata.deltan > tally_.overlapMax * diameter || (sidata.is_wall && Fn > tally_.wallForce);
       // a copy, so that the pair loop can keep a contact's data in registers
       if (record || tally_.overlaps || tally_.energy) watch(SurfacesIntersectData(sidata), diameter);
@@ -115,47 +113,17 @@ class NormalModel<VIELTO> : public NormalModelBase {
  private:
   // Overlap limit, overlap statistics and the normal part of the energy accounts.
   VIELTO_NOINLINE void watch(const SurfacesIntersectData& sidata, double diameter) {
-    const double Fn = sidata.Fn;
-    if (sidata.deltan > tally_.overlapMax * diameter) {
-      tally_.overlapMax = sidata.deltan / diameter;
-      if (maxOverlap_ > 0 && tally_.overlapMax > maxOverlap_) stop(sidata);
-    }
-    if (sidata.is_wall && Fn > tally_.wallForce) {
-      tally_.wallForce = Fn;
-      tally_.wallGrain = atom->tag[sidata.i];
-    }
-    if (!tally_.overlaps && !tally_.energy) return;
-    const double share = vielto::share(sidata, atom->nlocal, force->newton_pair);
-    if (tally_.overlaps) {
-      tally_.contacts += share;
-      tally_.overlapSum += share * sidata.deltan / diameter;
-    }
+    overlaps_.note(lmp, sidata, diameter);
     if (tally_.energy) {
+      const double share = vielto::share(sidata, atom->nlocal, force->newton_pair);
       const double spring = springFactor_ * sidata.kn * sidata.deltan;
       tally_.elastic += share * 0.5 * spring * sidata.deltan;
-      tally_.normalDamping += share * (spring - Fn) * sidata.vn * update->dt;
+      tally_.normalDamping += share * (spring - sidata.Fn) * sidata.vn * update->dt;
     }
   }
 
-  void stop(const SurfacesIntersectData& sidata) {
-    char partner[200];
-    if (!sidata.is_wall)
-      snprintf(partner, sizeof partner, "grain %d", atom->tag[sidata.j]);
-    else if (sidata.fix_mesh)
-      snprintf(partner, sizeof partner, "triangle %d of mesh %s", sidata.mesh->id(sidata.j), sidata.fix_mesh->id);
-    else
-      snprintf(partner, sizeof partner, "a primitive wall");
-    const double* x = atom->x[sidata.i];
-    char line[512];
-    snprintf(line, sizeof line,
-             "vielto: step " BIGINT_FORMAT ": overlap of grain %d at (%.4g %.4g %.4g) m with %s is %.3g %% of the diameter, "
-             "over the limit of %.3g %% (maxOverlap); the grain is wedged or too soft: raise youngsModulus, or look at this place",
-             update->ntimestep, atom->tag[sidata.i], x[0], x[1], x[2], partner, 100 * tally_.overlapMax,
-             100 * maxOverlap_);
-    vielto::stop_here(lmp, line);
-  }
-
-  double springFactor_, wallRadiusFactor_, maxOverlap_;
+  double springFactor_, wallRadiusFactor_;
+  vielto::OverlapWatch overlaps_;
   bool limitForce_;
   vielto::PairTable pairs_;
   vielto::Tally& tally_;

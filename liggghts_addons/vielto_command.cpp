@@ -143,6 +143,8 @@ void ViEltoCommand::command(int narg, char** arg) {
     prime(narg, arg);
   else if (what == "words" && narg > 2)
     set_variable(arg[1], joined(narg, arg, 2).c_str());
+  else if (what == "property" && narg == 4)
+    property(narg, arg);
   else if (what == "check" && narg > 1)
     check(narg, arg);
   else if (what == "provisional" && narg > 2)
@@ -156,14 +158,14 @@ void ViEltoCommand::command(int narg, char** arg) {
   else if (what == "close" && narg == 2)
     close(narg, arg);
   else
-    vielto::stop_all(lmp, "vielto: unknown form of this command; use error, half_period, shell, prime, words, check, provisional, grains, open, resume or close");
+    vielto::stop_all(lmp, "vielto: unknown form of this command; use error, half_period, shell, prime, words, property, check, provisional, grains, open, resume or close");
 }
 
 void ViEltoCommand::half_period(int, char** arg) {
   if (std::string(arg[2]) != "radius" || std::string(arg[4]) != "density")
     vielto::stop_all(lmp, "vielto: write 'vielto half_period NAME radius R density RHO'");
-  if (!vielto::settings().chosen)
-    vielto::stop_all(lmp, "vielto: half_period needs 'pair_style gran model vielto ...' before it");
+  if (vielto::settings().law == vielto::NO_LAW)
+    vielto::stop_all(lmp, "vielto: half_period needs 'pair_style gran model vielto ...' (or cohfrict) before it");
   const double radius = force->numeric(FLERR, arg[3]), density = force->numeric(FLERR, arg[5]);
   if (!(radius > 0 && density > 0)) vielto::stop_all(lmp, "vielto: half_period needs a radius and a density > 0");
   char value[64];
@@ -206,6 +208,15 @@ void ViEltoCommand::prime(int, char** arg) {
     found += isPrime;
   }
   set_variable(arg[1], std::to_string(candidate).c_str());
+}
+
+void ViEltoCommand::property(int, char** arg) {
+  const std::string name = arg[1], grain = arg[2], wall = arg[3];
+  if (atom->ntypes < 2 || atom->ntypes > 3)
+    vielto::stop_all(lmp, "vielto: property needs a box of two types (grain, wall) or three (and fixed grains)");
+  const std::string line = "fix " + name + " all property/global " + name + " peratomtype " + grain + " " + wall +
+                           (atom->ntypes == 3 ? " " + grain : "");
+  input->one(line.c_str());
 }
 
 void ViEltoCommand::check(int narg, char** arg) {

@@ -8,6 +8,8 @@
      vielto shell COMMAND...                   run a program; stop if it fails (LIGGGHTS' own shell does not look)
      vielto prime NAME K                       set variable NAME to the K-th prime over 10000, as LIGGGHTS wants its seeds
      vielto words NAME W1 W2 ...               set variable NAME to these words (quoted text is not substituted by LIGGGHTS)
+     vielto property NAME GRAIN WALL           fix NAME all property/global NAME peratomtype GRAIN WALL, with GRAIN again for a
+                                               third type (fixed grains)
      vielto check FILE [needs N1 N2 ...]       stop if the parameter file cannot be read, lacks one of these numbers, or if one of
                                                its parameters (or wall_PARAMETER) has been given a value of another kind: no
                                                number where it states one, none of the words its unit field allows (A, B or C)
@@ -43,6 +45,7 @@ class ViEltoCommand : protected Pointers {
   void half_period(int narg, char** arg);
   void shell(int narg, char** arg);
   void prime(int narg, char** arg);
+  void property(int narg, char** arg);
   void check(int narg, char** arg);
   void provisional(int narg, char** arg);
   void set_variable(char* name, const char* value);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "atom.h"
+#include "cohfrict_properties.h"
 #include "comm.h"
 #include "lammps.h"
 #include "vielto_properties.h"
@@ -23,23 +24,35 @@ struct Smallest {
 };
 
 // Over all pairs of types: grain on grain of either type, and grain on wall of any type.
-double shortest(LAMMPS_NS::LAMMPS* lmp, const std::vector<Smallest>& smallest) {
-  PairTable pairs;
-  pairs.read(lmp);
-  const Settings& s = settings();
+// half_period(i, j, R1, m1, R2, m2) is that of one contact.
+template <class HalfPeriod>
+double shortest(int types, const std::vector<Smallest>& smallest, const HalfPeriod& half_period) {
+  const double wallFactor = settings().wallRadiusFactor;
   double time = INF;
-  const int n = lmp->atom->ntypes;
-  for (int i = 1; i <= n; i++) {
+  for (int i = 1; i <= types; i++) {
     if (std::isinf(smallest[i].radius)) continue;
-    for (int j = 1; j <= n; j++) {
+    for (int j = 1; j <= types; j++) {
       const Smallest &a = smallest[i], &b = smallest[j];
-      time = std::min(time, shortest_half_period(pairs(i, j), s.springFactor, a.radius, a.mass,
-                                                 s.wallRadiusFactor * a.radius, INF));
-      if (!std::isinf(b.radius))
-        time = std::min(time, shortest_half_period(pairs(i, j), s.springFactor, a.radius, a.mass, b.radius, b.mass));
+      time = std::min(time, half_period(i, j, a.radius, a.mass, wallFactor * a.radius, INF));
+      if (!std::isinf(b.radius)) time = std::min(time, half_period(i, j, a.radius, a.mass, b.radius, b.mass));
     }
   }
   return std::isinf(time) ? 0.0 : time;
+}
+
+double shortest(LAMMPS_NS::LAMMPS* lmp, const std::vector<Smallest>& smallest) {
+  if (settings().law == COHFRICT_LAW) {
+    cohfrict::PairTable pairs;
+    pairs.read(lmp);
+    return shortest(lmp->atom->ntypes, smallest, [&](int i, int j, double R1, double m1, double R2, double m2) {
+      return shortest_half_period(springs(cohfrict::contact(pairs(i, j), R1, R2)), R1, m1, R2, m2);
+    });
+  }
+  PairTable pairs;
+  pairs.read(lmp);
+  return shortest(lmp->atom->ntypes, smallest, [&](int i, int j, double R1, double m1, double R2, double m2) {
+    return shortest_half_period(pairs(i, j), settings().springFactor, R1, m1, R2, m2);
+  });
 }
 
 }  // namespace

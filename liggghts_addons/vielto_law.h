@@ -203,26 +203,37 @@ inline double capped_spring_loss(double old, double now, double rate, double dt,
 // Contact time pi/omega_0 of the undamped normal oscillator, s.
 inline double normal_contact_time(double cn, double kn, double mEff) { return std::acos(-1.0) * std::sqrt(mEff / (cn * kn)); }
 
+// The springs of one contact: normal and tangential, N/m, rolling and twisting, N m.
+struct Springs {
+  double normal, tangential, rolling, twisting;
+};
+
 /* The shortest half period of one contact's modes, s: normal, sliding with rolling (coupled), twisting.
-   Spheres have I = 2/5 m R^2. For a wall pass m2 = infinity and R2 = wallRadiusFactor R1; its spin is given. */
-inline double shortest_half_period(const Pair& p, double cn, double R1, double m1, double R2, double m2) {
+   Spheres have I = 2/5 m R^2. For a wall pass m2 = infinity; its motion and spin are given. */
+inline double shortest_half_period(const Springs& k, double R1, double m1, double R2, double m2) {
   const double pi = std::acos(-1.0);
   const bool wall = std::isinf(m2);
   const double mEff = wall ? m1 : m1 * m2 / (m1 + m2);
-  const Stiffness s = stiffness(p, R1, R2, mEff);
   const double I1 = 0.4 * m1 * R1 * R1;
   const double invI1 = 1 / I1;
   const double invI2 = wall ? 0.0 : 1 / (0.4 * m2 * R2 * R2);
   const double lever2 = wall ? 0.0 : R2;
-  const double normal = cn * s.kn / mEff;
-  const double sliding = s.ks * (1 / mEff + R1 * R1 * invI1 + lever2 * lever2 * invI2);
-  const double kr = rolling_stiffness(p, s.kn, R1, R2);
-  const double rolling = kr * (invI1 + invI2);
-  const double coupling = std::sqrt(s.ks * kr) * (R1 * invI1 - lever2 * invI2);
+  const double normal = k.normal / mEff;
+  const double sliding = k.tangential * (1 / mEff + R1 * R1 * invI1 + lever2 * lever2 * invI2);
+  const double rolling = k.rolling * (invI1 + invI2);
+  const double coupling = std::sqrt(k.tangential * k.rolling) * (R1 * invI1 - lever2 * invI2);
   const double coupled =
       0.5 * (sliding + rolling) + std::sqrt(0.25 * (sliding - rolling) * (sliding - rolling) + coupling * coupling);
-  const double twisting = twisting_stiffness(p, s.ks, R1, R2) * (invI1 + invI2);
+  const double twisting = k.twisting * (invI1 + invI2);
   return pi / std::sqrt(std::max(normal, std::max(coupled, twisting)));
+}
+
+// The same for this law; for a wall R2 = wallRadiusFactor R1.
+inline double shortest_half_period(const Pair& p, double cn, double R1, double m1, double R2, double m2) {
+  const double mEff = std::isinf(m2) ? m1 : m1 * m2 / (m1 + m2);
+  const Stiffness s = stiffness(p, R1, R2, mEff);
+  const Springs k = {cn * s.kn, s.ks, rolling_stiffness(p, s.kn, R1, R2), twisting_stiffness(p, s.ks, R1, R2)};
+  return shortest_half_period(k, R1, m1, R2, m2);
 }
 
 /* Angular velocity of a rigid triangle from its corners r and their velocities v, rad/s. Walls hand over none,

@@ -6,10 +6,12 @@
 
 namespace vielto {
 
+enum Law { NO_LAW, VIELTO_LAW, COHFRICT_LAW };
+
 struct Settings {
   double springFactor;      // c_n
   double wallRadiusFactor;  // R_2/R_1 of a wall
-  bool chosen;              // a ViElTo pair_style has been given
+  Law law;                  // of the last pair_style
 };
 
 /* Sums since the fix last cleared them; energies in J, positive where energy leaves the grains.
@@ -31,7 +33,7 @@ struct Tally {
 };
 
 inline Settings& settings() {
-  static Settings s = {4.0, 2.0, false};
+  static Settings s = {4.0, 2.0, NO_LAW};
   return s;
 }
 

@@ -136,6 +136,37 @@ TEST(CohFrictBond, BrokenInShearWhileStretchedBearsNothing) {
   EXPECT_EQ(dot(load.moment, load.moment), 0.0);
 }
 
+// Stored: F_n^2/(2 k_n) + F_s^2/(2 k_s). A cap takes (trial - capped) (old + capped)/(2 k): the mean force over the slip
+// that is no longer stored.
+TEST(CohFrictEnergy, OfACapIsItsMeanForceTimesTheSlip) {
+  cohfrict::Memory memory = fresh(false);
+  cohfrict::Load load;
+  cohfrict::Energy energy;
+  const auto step = [&](double overlap, double slip, double roll) {
+    const cohfrict::Motion m = {{0, 0, 1}, overlap, {slip, 0, 0}, {0, roll, 0}, 0, 0};
+    return advance(simple(), m, 1.0, memory, load, &energy);
+  };
+  ASSERT_TRUE(step(4e-4, 2e-4, 1e-4));  // F_n 0.4, F_s 0.1 N, M_r 2e-4 N m: nothing slides
+  EXPECT_NEAR(energy.sliding, 0, kRounding);
+  EXPECT_NEAR(energy.rolling, 0, kRounding);
+  expect_relative(energy.elastic, 0.4 * 0.4 / 2000 + 0.1 * 0.1 / 1000 + 2e-4 * 2e-4 / 4);
+  ASSERT_TRUE(step(4e-4, 6e-4, 3e-4));  // trial 0.4 N over 0.2 N; trial 8e-4 N m over 4e-4 N m
+  EXPECT_NEAR(energy.sliding, (0.4 - 0.2) * (0.1 + 0.2) / (2 * 500), 1e-3 * kRounding);
+  EXPECT_NEAR(energy.rolling, (8e-4 - 4e-4) * (2e-4 + 4e-4) / (2 * 2), 1e-3 * kRounding);
+  expect_relative(energy.elastic, 0.4 * 0.4 / 2000 + 0.2 * 0.2 / 1000 + 4e-4 * 4e-4 / 4);
+}
+
+TEST(CohFrictEnergy, OfABondThatTearsIsLetGo) {
+  cohfrict::Memory memory = fresh(true);
+  cohfrict::Load load;
+  cohfrict::Energy energy;
+  memory.shear = {0.02, 0, 0};
+  const cohfrict::Motion m = {{0, 0, 1}, -0.201e-3, {0, 0, 0}, {0, 0, 0}, 0, 0};
+  EXPECT_FALSE(advance(simple(), m, 1.0, memory, load, &energy));
+  expect_relative(energy.sliding, 0.201 * 0.201 / 2000 + 0.02 * 0.02 / 1000);
+  EXPECT_EQ(energy.elastic, 0);
+}
+
 TEST(CohFrictMoments, AreLimitedByTheNormalForceOfEitherSign) {
   for (const double overlap : {2e-4, -1e-4}) {  // F_n = 0.2 and -0.1 N
     const double F = std::fabs(1000 * overlap);

@@ -23,12 +23,14 @@ chmod -R u+w .
 sed -i '70s/return static_cast.*/std::ostringstream out; out << std::dec << a; return out.str();/' utils.h
 sed -n 70p utils.h | grep -q 'out.str()' || { echo "utils.h line 70 is not what it was in 3.8.0" >&2; exit 1; }
 
-# the drop-in: headers unchanged, one line for the fast path
-for header in vielto_law vielto_properties vielto_state vielto_stop vielto_wall_motion \
-  normal_model_vielto tangential_model_vielto rolling_model_vielto; do
+# the drop-in: headers unchanged, one line a law for the fast path
+for header in vielto_law vielto_overlap vielto_properties vielto_state vielto_stop vielto_wall_motion \
+  normal_model_vielto tangential_model_vielto rolling_model_vielto \
+  cohfrict_law cohfrict_properties normal_model_cohfrict; do
   cp "$addons/$header.h" .
 done
-echo 'GRAN_MODEL(VIELTO, TANGENTIAL_VIELTO, COHESION_OFF, ROLLING_VIELTO, SURFACE_DEFAULT)' \
+printf '%s\n' 'GRAN_MODEL(VIELTO, TANGENTIAL_VIELTO, COHESION_OFF, ROLLING_VIELTO, SURFACE_DEFAULT)' \
+  'GRAN_MODEL(COHFRICT, TANGENTIAL_OFF, COHESION_OFF, ROLLING_OFF, SURFACE_DEFAULT)' \
   > style_contact_model_user.whitelist
 # of the stock combinations one is enough here: the list that LIGGGHTS makes itself has 1200 and takes hours to compile
 echo 'GRAN_MODEL(HOOKE, TANGENTIAL_HISTORY, COHESION_OFF, ROLLING_OFF, SURFACE_DEFAULT)' \
@@ -63,7 +65,7 @@ endloop
 endfacet
 endsolid plate
 STL
-cat > in.impact <<'SCRIPT'
+cat > in.models <<'SCRIPT'
 atom_style granular
 atom_modify map array
 boundary f f f
@@ -83,7 +85,13 @@ fix rollingStiffnessFactor all property/global rollingStiffnessFactor peratomtyp
 fix twistingStiffnessFactor all property/global twistingStiffnessFactor peratomtype 0.5 0.4
 fix rollingResistance all property/global rollingResistance peratomtype 0.1 0.2
 fix twistingResistance all property/global twistingResistance peratomtype 0.1 0.2
-pair_style gran model vielto tangential vielto rolling_friction vielto
+fix alphaKr all property/global alphaKr peratomtype 0.5 0.4
+fix alphaKtw all property/global alphaKtw peratomtype 0.5 0.4
+fix etaRoll all property/global etaRoll peratomtype 0.1 0.2
+fix etaTwist all property/global etaTwist peratomtype 0.1 0.2
+fix normalCohesion all property/global normalCohesion peratomtype 1e3 2e3
+fix shearCohesion all property/global shearCohesion peratomtype 1e3 2e3
+pair_style gran MODELS
 pair_coeff * *
 create_atoms 1 single 0 0 0 units box
 create_atoms 2 single 0.009 0.0048 0 units box
@@ -95,7 +103,7 @@ velocity second set -0.5 0.1 0.05 units box
 velocity third set 0.3 0 -0.4 units box
 set group all omegax 20 omegay -30 omegaz 60
 fix plate all mesh/surface file plate.stl type 2
-fix wall all wall/gran model vielto tangential vielto rolling_friction vielto mesh n_meshes 1 meshes plate
+fix wall all wall/gran MODELS mesh n_meshes 1 meshes plate
 fix turn all move/mesh mesh plate rotate origin 0 0 0 axis 0 1 1 period 0.5
 timestep 1e-6
 fix move all nve/sphere
@@ -103,12 +111,17 @@ dump end all custom 600 end.dump id x y z vx vy vz omegax omegay omegaz
 dump_modify end sort id format "%d %.17g %.17g %.17g %.17g %.17g %.17g %.17g %.17g %.17g"
 run 600
 SCRIPT
-"$ours" -in in.impact > ours.log 2>&1 || { tail -n 5 ours.log >&2; exit 1; }
-mv end.dump ours.dump
-src/lmp_dropin -in in.impact > dropin.log 2>&1 || { tail -n 5 dropin.log >&2; exit 1; }
-# the last frames number by number: 600 steps of round-off, of velocities up to 1 m/s and spins up to 100 rad/s
-tail -n 3 ours.dump > ours.end
-tail -n 3 end.dump > dropin.end
-paste ours.end dropin.end | awk '
-  { for (i = 2; i <= NF / 2; i++) { d = $i - $(i + NF / 2); if (d < 0) d = -d; if (d > worst) worst = d } }
-  END { printf "largest difference %g\n", worst; exit !(NR == 3 && worst < 1e-10) }'
+
+for models in 'model vielto tangential vielto rolling_friction vielto' 'model cohfrict'; do
+  echo "$models"
+  sed "s/MODELS/$models/" in.models > in.impact
+  "$ours" -in in.impact > ours.log 2>&1 || { tail -n 5 ours.log >&2; exit 1; }
+  mv end.dump ours.dump
+  src/lmp_dropin -in in.impact > dropin.log 2>&1 || { tail -n 5 dropin.log >&2; exit 1; }
+  # the last frames number by number: 600 steps of round-off, of velocities up to 1 m/s and spins up to 100 rad/s
+  tail -n 3 ours.dump > ours.end
+  tail -n 3 end.dump > dropin.end
+  paste ours.end dropin.end | awk '
+    { for (i = 2; i <= NF / 2; i++) { d = $i - $(i + NF / 2); if (d < 0) d = -d; if (d > worst) worst = d } }
+    END { printf "largest difference %g\n", worst; exit !(NR == 3 && worst < 1e-10) }'
+done

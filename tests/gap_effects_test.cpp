@@ -32,8 +32,8 @@ TEST(GapEffects, AllOfTheProtocol) {
 
 // A switch stands in the mixer's parameters or a card, or the page lists it as missing.
 TEST(GapEffects, TheMixerKnowsEverySwitchOrThePageSaysThatItDoesNot) {
-  const std::string cases = VIELTO_SOURCE_DIR "/cases/mixer/mixer.par", cards = VIELTO_SOURCE_DIR "/materials/";
-  const ParFile mixer = ParFile::read(cases), grain = ParFile::read(cards + "hulled_millet.par"),
+  const std::string cases = VIELTO_SOURCE_DIR "/cases/", cards = VIELTO_SOURCE_DIR "/materials/";
+  const ParFile mixer = ParFile::read(cases + "mixer/mixer.par"), law = ParFile::read(cases + "law.par"), grain = ParFile::read(cards + "hulled_millet.par"),
                 wall = ParFile::read(cards + "steel.par");
   std::ifstream in(kGap + "README.md");
   std::ostringstream page;
@@ -42,7 +42,7 @@ TEST(GapEffects, TheMixerKnowsEverySwitchOrThePageSaysThatItDoesNot) {
     for (const VarChange& v : e.vars) {
       if (!v.acts_on("mixer")) continue;
       const bool known =
-          mixer.has(v.name) || grain.has(v.name) || (v.name.rfind("wall_", 0) == 0 && wall.has(v.name.substr(5)));
+          mixer.has(v.name) || law.has(v.name) || grain.has(v.name) || (v.name.rfind("wall_", 0) == 0 && wall.has(v.name.substr(5)));
       if (!known) {
         EXPECT_NE(page.str().find("| `" + v.name + "` |"), std::string::npos) << e.name << ": " << v.name;
       }

@@ -219,6 +219,34 @@ TEST(StretchedBond, SurvivesARestart) {
               x * x / 24 * phase + x * x / 4);
 }
 
+/* Of equal spheres without moments, sliding is the stiffest mode: omega^2 = k_s (1/m_eff + 2 R^2/I) = 7 k_s/m, against
+   2 k_n/m of the normal one and less on a wall. Printed with 12 digits. */
+TEST(CohFrictTime, HalfPeriodIsThatOfTheStiffestMode) {
+  Bond bond;
+  bond.alphaKr = bond.alphaKtw = 0;
+  Liggghts run;
+  run.script = settings_head() + grains(run, {Sphere()}, 0.05) + pair_style(bond) +
+               fmt::format("vielto half_period tc radius {} density 1375\nprint \"tc=${{tc}}.\"\n", R);
+  const Outcome outcome = run.start();
+  ASSERT_EQ(outcome.status, 0) << outcome.text;
+  const std::size_t at = outcome.text.rfind("tc=");
+  ASSERT_NE(at, std::string::npos);
+  const double mass = 1375 * 4.0 / 3 * pi * R * R * R;
+  const double expected = pi / std::sqrt(7 * 0.5 * E * R / mass);
+  EXPECT_NEAR(std::stod(outcome.text.substr(at + 3)), expected, 1e-11 * expected);
+}
+
+// v = 2 m/s gives an overlap of v/omega, 2 % of the diameter and more; the limit names the grain.
+TEST(CohFrictOverlap, IsLimited) {
+  const HeadOn impact(Partner::sphere, 2);
+  ASSERT_GT(impact.v / impact.omega(), 0.02 * 2 * R);
+  Liggghts run;
+  run.script = start(run, impact.spheres, Bond(), 0.02 / impact.omega(), "maxOverlap 0.02") + "run 200\n";
+  const Outcome outcome = run.start();
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_NE(outcome.text.find("over the limit of 2 % (maxOverlap)"), std::string::npos) << outcome.text;
+}
+
 void expect_error(const std::string& law, const std::vector<std::string>& words) {
   Liggghts run;
   run.script = settings_head() + grains(run, {Sphere()}, 0.05) + "neighbor 0.002 bin\n" + law +

@@ -14,13 +14,15 @@ double sum_of_torques(const Table& rows, std::size_t k) {
 
 }  // namespace
 
+class MixerBalance : public testing::TestWithParam<const char*> {};
+
 /* Shaft work = dissipation by mechanism + change of kinetic, elastic and potential energy, within 1 % (the energy a
    spring still holds when its contact opens, and the dashpots' losses, which are taken at half steps, are what is
    left). Torque of rotor, drum and gravity on the bed = change of its angular momentum, whose mean over the window is 0
    within its uncertainty, here from means of 15 rows. */
-TEST(MixerBalance, ShaftWorkIsDissipatedAndTorquesAddUpToNothing) {
+TEST_P(MixerBalance, ShaftWorkIsDissipatedAndTorquesAddUpToNothing) {
   Mixer mixer;
-  mixer.must("run", four, "-var turns 1 -var energyBalance on -var dtFraction 0.025");
+  mixer.must("run", four, fmt::format("-var law {} -var turns 1 -var energyBalance on -var dtFraction 0.025", GetParam()));
   const Table rows = mixer.csv("run/torque.csv");
   ASSERT_EQ(rows.rows.size(), 360u);
   const auto change = [&rows](const std::string& column) { return rows.at(last, column) - rows.at(first, column); };
@@ -56,3 +58,5 @@ TEST(MixerBalance, ShaftWorkIsDissipatedAndTorquesAddUpToNothing) {
   EXPECT_LT(u, 0.1 * rotors);
   EXPECT_GT(std::fabs(gravity), 4 * u);  // the bed leans, and would be missed
 }
+
+INSTANTIATE_TEST_SUITE_P(Laws, MixerBalance, testing::Values("vielto", "cohfrict"), [](const auto& tested) { return std::string(tested.param); });

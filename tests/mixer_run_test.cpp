@@ -88,15 +88,15 @@ TEST(MixerFilling, HasTheMassAskedForAndTheSizesOfTheNormalDistribution) {
 // The state right after insertion: the script up to its first step. Triangles of a slice repeat with its length.
 TEST(MixerFilling, ComesInWithoutTouchingRotorOrDrum) {
   Mixer mixer;
-  for (const char* file : {"mixer.par", "materials.in", "in.mixer"})
-    fs::copy(fs::path(VIELTO_SOURCE_DIR "/cases/mixer") / file, mixer.folder);
-  const std::string script = mixer.read("in.mixer");
+  for (const char* part : {"mixer", "laws"}) fs::copy(fs::path(VIELTO_SOURCE_DIR "/cases") / part, mixer.folder / part);
+  for (const char* file : {"law.par", "law.in"}) fs::copy(fs::path(VIELTO_SOURCE_DIR "/cases") / file, mixer.folder);
+  const std::string script = mixer.read("mixer/in.mixer");
   const std::size_t first = script.find("\nrun 1\n");
   ASSERT_NE(first, std::string::npos);
-  mixer.write("in.mixer",
-              script.substr(0, first) + "\nrun 1\nwrite_dump all custom/vtk in.vtk id type x y z vx vy vz radius\n");
+  mixer.write("mixer/in.mixer",
+              script.substr(0, first) + "\nrun 1\nwrite_dump all custom/vtk ../in.vtk id type x y z vx vy vz radius\n");
   const Outcome outcome = mixer.shell(fmt::format(
-      "cd '{}' && PATH='{}':$PATH {} -in in.mixer -var run run -var materials '{}/materials' -var fill 0.25 {}",
+      "cd '{}/mixer' && PATH='{}':$PATH {} -in in.mixer -var run ../run -var materials '{}/materials' -var fill 0.25 {}",
       mixer.folder.string(), VIELTO_BIN_DIR, Mixer::command(), VIELTO_SOURCE_DIR, four));
   ASSERT_EQ(outcome.status, 0) << outcome.text;
   const auto grains = read_vtk(mixer.folder / "in.vtk");
@@ -262,7 +262,7 @@ TEST(MixerRun, FolderStatesParametersAndInputs) {
   EXPECT_EQ(run["parameters"]["wall_youngsModulus"], "2e5");
   EXPECT_EQ(run["parameters"]["wall_frictionAngle"], "25");
   EXPECT_EQ(run["parameters"]["seed"], "1");
-  for (const char* file : {"in.mixer", "mixer.par", "materials.in", "hulled_millet.par", "steel.par"})
+  for (const char* file : {"in.mixer", "mixer.par", "law.par", "law.in", "vielto.in", "materials.in", "hulled_millet.par", "steel.par"})
     EXPECT_EQ(run["hashes"][file].get<std::string>().size(), 64u) << file;
   EXPECT_NE(run["command"].get<std::string>().find("-in in.mixer"), std::string::npos);
   EXPECT_EQ(run["versions"].size(), 2u);
