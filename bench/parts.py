@@ -124,7 +124,7 @@ def triangles(folder, quick, pairs):
     for factor in (1, 4) if quick else (1, 2, 4, 8):
         where = pathlib.Path(folder, f"mesh{factor}")
         where.mkdir()
-        bed = make_bed(where, (f"drumSegments={12 * factor}", f"shaftSegments={6 * factor}"), turns=0.05, d=0.012, E=1e5)
+        bed = make_bed(where, (f"drumSegments={24 * factor}", f"shaftSegments={12 * factor}"), turns=0.05, d=0.012, E=1e5)
         counts.append(sum(p.read_text(errors="replace").count("endfacet") for p in pathlib.Path(where, "mesh").glob("*.stl")))
         beds.append(Engine(where, law=1, **bed, E=1e5))
     times = [[] for _ in beds]

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // liggghts for the benchmark: ViElTo and the stock law with the same ingredients, instantiated in one program with the
-// same flags, each with clocks around its pair loop and its wall contacts. After its script it obeys the lines on its
+// same flags, each with clocks around its pair loop and its wall loop. After its script it obeys the lines on its
 // standard input, `run N` (answers with one line `TIMED {...}`) and `quit`, so that two of them can take turns.
 // clang-format off
 #include <mpi.h>
 #include <x86intrin.h>
 #include <stdio.h>
+#include <map>
+#include <string>
 #include "lammps.h"
 #include "atom.h"
 #include "comm.h"
@@ -24,6 +26,8 @@
 #include "contact_models.h"
 #include "pair_gran_base.h"
 #include "fix_wall_gran_base.h"
+#include "fix_vielto_wall.h"
+#include "vielto_open.h"
 #include "vielto_pair.h"
 #include "vielto_register.h"
 // clang-format on
@@ -33,10 +37,17 @@ using namespace LIGGGHTS;
 using namespace LIGGGHTS::ContactModels;
 
 namespace {
+struct FixTable {
+  typedef std::map<std::string, Fix* (*)(LAMMPS*, int, char**)>* Modify::*type;
+};
+}  // namespace
+template struct vielto::Opened<FixTable, &Modify::fix_map>;  // see vielto_open.h
+
+namespace {
 
 struct Clocks {
   unsigned long long pairTicks, wallTicks;
-  double pairContacts, wallContacts;  // sums over samples and over steps
+  double pairContacts, wallContacts;  // sums over samples; a wall's are those with meshes
   long steps, pairSamples;
 };
 Clocks clocks = {};
@@ -75,21 +86,27 @@ class TimedPair : public PairStyle {
   Atom* atom_;
 };
 
-template <class Style>
-class TimedWall : public Walls::Granular<ContactModel<Style>> {
+// The whole wall loop, with LIGGGHTS' search for the nearest point of a triangle and its books of contacts.
+template <class Wall>
+class TimedWall : public Wall {
  public:
-  TimedWall(LAMMPS* lmp, FixWallGran* parent, int64_t hash)
-      : Walls::Granular<ContactModel<Style>>(lmp, parent, hash) {}
+  TimedWall(LAMMPS* lmp, int narg, char** arg) : Wall(lmp, narg, arg) {}
 
-  void compute_force(FixWallGran* wg, SurfacesIntersectData& sidata, bool intersectflag, double* vwall,
-                     FixMeshSurface* fix_mesh, int iMesh, TriMesh* mesh, int iTri) override {
+  void post_force(int vflag) override {
     const unsigned long long start = __rdtsc();
-    Walls::Granular<ContactModel<Style>>::compute_force(wg, sidata, intersectflag, vwall, fix_mesh, iMesh, mesh, iTri);
+    Wall::post_force(vflag);
     if (!counting) return;
     clocks.wallTicks += __rdtsc() - start;
-    clocks.wallContacts += intersectflag;
+    int touching = 0;
+    if (clocks.steps % 50 == 1 && this->is_mesh_wall()) this->n_contacts_local(touching), clocks.wallContacts += touching;
   }
 };
+
+Fix* make_wall_fix(LAMMPS* lmp, int narg, char** arg) {
+  for (int k = 3; k + 1 < narg; k++)
+    if (std::string(arg[k]) == "model" && std::string(arg[k + 1]) == "vielto") return new TimedWall<FixViEltoWall>(lmp, narg, arg);
+  return new TimedWall<FixWallGran>(lmp, narg, arg);
+}
 
 template <class PairStyle>
 PairStyles::IGranularPairStyle* make_pair(LAMMPS* lmp, PairGran* parent, int64_t hash) {
@@ -98,7 +115,7 @@ PairStyles::IGranularPairStyle* make_pair(LAMMPS* lmp, PairGran* parent, int64_t
 
 template <class Style>
 Walls::IGranularWall* make_wall(LAMMPS* lmp, FixWallGran* parent, int64_t hash) {
-  return new TimedWall<Style>(lmp, parent, hash);
+  return new Walls::Granular<ContactModel<Style>>(lmp, parent, hash);
 }
 
 // The registries warn about each replacement on standard error; here it is wanted.
@@ -125,7 +142,7 @@ void timed_run(LAMMPS& lammps, const char* steps) {
          "\"pair_contacts\": %.6g, \"wall_contacts\": %.6g}\n",
          clocks.steps, static_cast<double>(lammps.atom->natoms), seconds, tick * static_cast<double>(clocks.pairTicks),
          tick * static_cast<double>(clocks.wallTicks), clocks.pairContacts / static_cast<double>(clocks.pairSamples),
-         clocks.wallContacts / static_cast<double>(clocks.steps));
+         clocks.wallContacts / static_cast<double>(clocks.pairSamples));
   fflush(stdout);
 }
 
@@ -145,6 +162,7 @@ int main(int argc, char** argv) {
   {
     LAMMPS lammps(argc, argv, MPI_COMM_WORLD);
     vielto::install(&lammps);
+    (*(lammps.modify->*vielto::Handed<FixTable>::pointer))["wall/gran"] = &make_wall_fix;
     // after LIGGGHTS has registered its own, which would replace ours
     using Ours = GranStyle<VIELTO, TANGENTIAL_VIELTO, COHESION_OFF, ROLLING_VIELTO, SURFACE_DEFAULT>;
     using Stock = GranStyle<HOOKE_STIFFNESS, TANGENTIAL_HISTORY, COHESION_OFF, ROLLING_EPSD2, SURFACE_DEFAULT>;

@@ -26,7 +26,9 @@
 #include "fix_vielto_plate.h"
 #include "fix_vielto_record.h"
 #include "fix_vielto_shear.h"
+#include "fix_vielto_wall.h"
 #include "vielto_command.h"
+#include "vielto_open.h"
 #include "vielto_pair.h"
 // clang-format on
 
@@ -45,7 +47,7 @@ struct CommandTable {
 };
 }  // namespace
 
-// see Opened in vielto_pair.h
+// see vielto_open.h
 template struct Opened<FixTable, &Modify::fix_map>;
 template struct Opened<CommandTable, &Input::command_map>;
 
@@ -54,6 +56,16 @@ namespace {
 template <class Style>
 Fix* make_fix(LAMMPS* lmp, int narg, char** arg) {
   return new Style(lmp, narg, arg);
+}
+
+Fix* (*stock_wall)(LAMMPS*, int, char**) = NULL;
+
+// Our wall loop for our laws; a wall of another law stays LIGGGHTS' own.
+Fix* make_wall_fix(LAMMPS* lmp, int narg, char** arg) {
+  for (int k = 3; k + 1 < narg; k++)
+    if (std::string(arg[k]) == "model" && (std::string(arg[k + 1]) == "vielto" || std::string(arg[k + 1]) == "cohfrict"))
+      return new FixViEltoWall(lmp, narg, arg);
+  return stock_wall(lmp, narg, arg);
 }
 
 void run_command(LAMMPS* lmp, int narg, char** arg) {
@@ -69,6 +81,8 @@ void install(LAMMPS* lmp) {
   fixes["vielto/plate"] = &make_fix<FixViEltoPlate>;
   fixes["vielto/shear"] = &make_fix<FixViEltoShear>;
   fixes["vielto/watch"] = &make_fix<FixViEltoWatch>;
+  if (!stock_wall) stock_wall = fixes["wall/gran"];
+  fixes["wall/gran"] = &make_wall_fix;
   (*(lmp->input->*Handed<CommandTable>::pointer))["vielto"] = &run_command;
 }
 

@@ -85,19 +85,46 @@ TEST(MixerFilling, HasTheMassAskedForAndTheSizesOfTheNormalDistribution) {
   EXPECT_NEAR(std::sqrt(square - mean * mean), diameter * spread, 2 / n * diameter);
 }
 
+// The mixer's case, to be changed, in the folder of the test.
+void copy_case(const Mixer& mixer) {
+  for (const char* part : {"mixer", "laws"}) fs::copy(fs::path(VIELTO_SOURCE_DIR "/cases") / part, mixer.folder / part);
+  for (const char* file : {"law.par", "law.in"}) fs::copy(fs::path(VIELTO_SOURCE_DIR "/cases") / file, mixer.folder);
+}
+
+// Runs the changed case to the run folder `run` beside it.
+Outcome run_case(Mixer& mixer, const std::string& script, const std::string& more) {
+  mixer.write("mixer/in.mixer", script);
+  return mixer.shell(fmt::format("cd '{}/mixer' && PATH='{}':$PATH {} -in in.mixer -var run ../run -var materials '{}/materials' {}",
+                                 mixer.folder.string(), VIELTO_BIN_DIR, Mixer::command(), VIELTO_SOURCE_DIR, more));
+}
+
+// Our wall loop and LIGGGHTS', which stored contact forces ask for: faces, edges and corners of seven meshes, to the last digit.
+TEST(MixerWalls, OurLoopGivesTheNumbersOfLiggghts) {
+  Mixer mixer;
+  mixer.must("ours", four, "-var turns 0.3");
+  copy_case(mixer);
+  std::string script = mixer.read("mixer/in.mixer");
+  const std::string walls = "stems shaft drum ${settings}";
+  const std::size_t at = script.find(walls);
+  ASSERT_NE(at, std::string::npos);
+  script.replace(at, walls.size(), "stems shaft drum store_force_contact yes ${settings}");
+  const Outcome outcome = run_case(mixer, script, std::string(four) + " -var turns 0.3");
+  ASSERT_EQ(outcome.status, 0) << outcome.text;
+  const Table ours = mixer.csv("ours/torque.csv"), liggghts = mixer.csv("run/torque.csv");
+  EXPECT_EQ(ours.rows, liggghts.rows);
+  EXPECT_EQ(ours.rows.size(), 108u);
+}
+
 // The state right after insertion: the script up to its first step. Triangles of a slice repeat with its length.
 TEST(MixerFilling, ComesInWithoutTouchingRotorOrDrum) {
   Mixer mixer;
-  for (const char* part : {"mixer", "laws"}) fs::copy(fs::path(VIELTO_SOURCE_DIR "/cases") / part, mixer.folder / part);
-  for (const char* file : {"law.par", "law.in"}) fs::copy(fs::path(VIELTO_SOURCE_DIR "/cases") / file, mixer.folder);
+  copy_case(mixer);
   const std::string script = mixer.read("mixer/in.mixer");
   const std::size_t first = script.find("\nrun 1\n");
   ASSERT_NE(first, std::string::npos);
-  mixer.write("mixer/in.mixer",
-              script.substr(0, first) + "\nrun 1\nwrite_dump all custom/vtk ../in.vtk id type x y z vx vy vz radius\n");
-  const Outcome outcome = mixer.shell(fmt::format(
-      "cd '{}/mixer' && PATH='{}':$PATH {} -in in.mixer -var run ../run -var materials '{}/materials' -var fill 0.25 {}",
-      mixer.folder.string(), VIELTO_BIN_DIR, Mixer::command(), VIELTO_SOURCE_DIR, four));
+  const Outcome outcome =
+      run_case(mixer, script.substr(0, first) + "\nrun 1\nwrite_dump all custom/vtk ../in.vtk id type x y z vx vy vz radius\n",
+               std::string("-var fill 0.25 ") + four);
   ASSERT_EQ(outcome.status, 0) << outcome.text;
   const auto grains = read_vtk(mixer.folder / "in.vtk");
   vtkDataArray* radius = grains->GetPointData()->GetArray("radius");
