@@ -44,7 +44,7 @@ sed -e 's/^CC =.*/CC = mpicxx/' -e 's/^LINK =.*/LINK = mpicxx/' \
   -e 's/^CCFLAGS =.*/CCFLAGS = -O1 -std=c++11 -fPIC -w/' \
   -e 's/^LMP_INC =.*/LMP_INC =/' -e 's/^VTK_INC =.*/VTK_INC =/' -e 's/^VTK_LIB =.*/VTK_LIB =/' \
   MAKE/Makefile.mpi > MAKE/Makefile.dropin
-nice -n 10 make dropin > make.log 2>&1 || { tail -n 40 make.log >&2; exit 1; }
+make -j "$(nproc)" dropin > make.log 2>&1 || { tail -n 40 make.log >&2; exit 1; }
 
 cd "$work"
 cat > plate.stl <<'STL'
