@@ -23,6 +23,7 @@
 #include "contact_models.h"
 #include "pair_gran_base.h"
 #include "fix_wall_gran_base.h"
+#include "fix_vielto_drag.h"
 #include "fix_vielto_plate.h"
 #include "fix_vielto_record.h"
 #include "fix_vielto_shear.h"
@@ -80,6 +81,7 @@ void install(LAMMPS* lmp) {
   fixes["vielto/record"] = &make_fix<FixViEltoRecord>;
   fixes["vielto/plate"] = &make_fix<FixViEltoPlate>;
   fixes["vielto/shear"] = &make_fix<FixViEltoShear>;
+  fixes["vielto/drag"] = &make_fix<FixViEltoDrag>;
   fixes["vielto/watch"] = &make_fix<FixViEltoWatch>;
   if (!stock_wall) stock_wall = fixes["wall/gran"];
   fixes["wall/gran"] = &make_wall_fix;

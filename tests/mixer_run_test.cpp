@@ -88,7 +88,7 @@ TEST(MixerFilling, HasTheMassAskedForAndTheSizesOfTheNormalDistribution) {
 // The mixer's case, to be changed, in the folder of the test.
 void copy_case(const Mixer& mixer) {
   for (const char* part : {"mixer", "laws"}) fs::copy(fs::path(VIELTO_SOURCE_DIR "/cases") / part, mixer.folder / part);
-  for (const char* file : {"law.par", "law.in"}) fs::copy(fs::path(VIELTO_SOURCE_DIR "/cases") / file, mixer.folder);
+  for (const char* file : {"law.par", "law.in", "drag.in"}) fs::copy(fs::path(VIELTO_SOURCE_DIR "/cases") / file, mixer.folder);
 }
 
 // Runs the changed case to the run folder `run` beside it.

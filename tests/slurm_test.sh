@@ -3,7 +3,7 @@
 # cases/mixer/slurm/mixer.sbatch on a Slurm of one node, made in a temporary folder and taken down again, at small size:
 # a whole run; a run put back into the queue that goes on from its restart; bad input. Opt-in, needs root:
 #   tests/slurm_test.sh [BIN]      BIN: folder of our liggghts, default build/bin
-# Packages: scripts/install-packages slurm
+# Packages: scripts/install-packages slurm campaign
 set -euo pipefail
 cd "$(dirname "$0")/.."
 bin=$(cd "${1:-build/bin}" 2>/dev/null && pwd) || { echo "slurm_test: no folder ${1:-build/bin}" >&2; exit 2; }
@@ -69,6 +69,7 @@ echo "Slurm of one node is up"
 
 # the case's own files, so that the source folder stays clean; its paths lead to materials/
 mkdir -p "$work/mixer/a"
+cp -r cases/{law.par,law.in,drag.in,laws} "$work"
 cp -r cases/mixer/{in.mixer,mixer.par,materials.in,slurm} "$work/mixer"
 cd "$work/mixer"
 small=(-var materials "$OLDPWD/materials" -var slicePaddles 4 -var fill 0.03 -var grainDiameter 0.014 -var youngsModulus 5e5
@@ -116,3 +117,21 @@ finish "$job" 60
 expect "state of a job without a run folder" "$state" FAILED
 grep -q 'no run folder' mixer-"$job".log
 echo "bad input: refused"
+
+# a campaign through the profile: two jobs, one of which fails
+cat >"$work/study.csv" <<'CSV'
+run,rig,speed,fill,grainDiameter,youngsModulus,wall_youngsModulus,settleTime,turns
+whole,mixer,1.5,0.05,0.016,2e5,2e5,0.2,3
+bad,mixer,-1,0.05,0.016,2e5,2e5,0.2,3
+CSV
+cd "$OLDPWD"
+if scripts/campaign "$work/study.csv" --out "$work/study" --bin "$bin" --slurm --every 5 >"$work/campaign.log" 2>&1; then
+  echo "slurm_test: a campaign with a failing run ends well" >&2
+  exit 1
+fi
+[ -d "$work/study/runs/whole" ] || { cat "$work/study/snakemake.log" >&2; exit 1; }
+[ -f "$work/study/observations.csv" ] && { echo "slurm_test: a table without one of its runs" >&2; exit 1; }
+sed -i /^bad/d "$work/study.csv"
+scripts/campaign "$work/study.csv" --out "$work/study" --bin "$bin" --slurm --every 5 >"$work/campaign.log" 2>&1 || { cat "$work/study/snakemake.log" >&2; exit 1; }
+grep -q ^whole, "$work/study/observations.csv"
+echo "a campaign: jobs, a failing one, the table"

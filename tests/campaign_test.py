@@ -1,0 +1,75 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""scripts/campaign through its command line: a study of small mixer runs; killed with all that it started, and called
+again, it ends with the same tables to the last digit; bad studies are refused.
+   campaign_test.py BIN    folder of our liggghts and vielto"""
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+BIN = pathlib.Path(sys.argv[1])
+STUDY = """run,rig,speed,fill,grainDiameter,youngsModulus,wall_youngsModulus,settleTime,turns,seed
+slow,mixer,1.0,0.05,0.016,2e5,2e5,0.2,3,1
+fast,mixer,1.5,0.05,0.016,2e5,2e5,0.2,3,1
+"""
+
+
+def campaign(table, out):
+    return [ROOT / "scripts/campaign", table, "--out", out, "--bin", BIN, "--cores", "2", "--every", "2"]
+
+
+def tables(out):
+    # conditions and values; not the lines that tell when a run was made
+    return {name: (out / name).read_text() for name in ("observations.csv", "numbers.csv")}
+
+
+if not shutil.which("snakemake"):
+    sys.exit(77)
+with tempfile.TemporaryDirectory(prefix="vielto-campaign-") as name:
+    folder = pathlib.Path(name)
+    study = folder / "study.csv"
+    study.write_text(STUDY)
+    whole = subprocess.run(campaign(study, folder / "whole"), capture_output=True, text=True)
+    assert whole.returncode == 0, whole.stdout + whole.stderr + (folder / "whole/snakemake.log").read_text()
+    assert "100 % of the work" in whole.stdout, whole.stdout
+    rows = (folder / "whole/observations.csv").read_text().splitlines()
+    assert sum(line.startswith("slow,") for line in rows) >= 1 and sum(line.startswith("fast,") for line in rows) >= 1, rows
+
+    out = folder / "killed"
+    started = subprocess.Popen(campaign(study, out), stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+    record = out / "runs/slow.partial/torque.csv"
+    for _ in range(600):
+        if record.exists() and sum(line[:1].isdigit() for line in record.open()) > 100:
+            break
+        time.sleep(0.1)
+    else:
+        sys.exit(f"no record of the run to kill: {started.communicate(timeout=1)}")
+    subprocess.run(["pkill", "-KILL", "-f", str(out)])
+    started.wait()
+    assert not (out / "observations.csv").exists()
+    assert record.exists()
+    again = subprocess.run(campaign(study, out), capture_output=True, text=True)
+    assert again.returncode == 0, again.stdout + again.stderr + (out / "snakemake.log").read_text()
+    assert tables(out) == tables(folder / "whole")
+    # nothing to do any more
+    third = subprocess.run(campaign(study, out), capture_output=True, text=True)
+    assert third.returncode == 0 and tables(out) == tables(folder / "whole")
+
+    for text, fault in (("run,rig,seed\na,mill,1\n", "line 2: a run needs a name in `run` and one of mixer, shearbox, repose"),
+                        ("run,rig,seed\na,mixer,1\na,mixer,2\n", "line 3: run a is there twice"),
+                        ("run,rig,seed\na,mixer\n", "line 2: it has not as many cells as the header"),
+                        ("run,rig,seed\n", "there are no runs in it")):
+        study.write_text(text)
+        refused = subprocess.run(campaign(study, folder / "bad"), capture_output=True, text=True)
+        assert refused.returncode == 2 and fault in refused.stderr, refused
+        assert not (folder / "bad").exists()
+    missing = subprocess.run(campaign("nonsense", folder / "bad"), capture_output=True, text=True)
+    assert missing.returncode == 2 and "there is no study nonsense; known: grid" in missing.stderr, missing
+    study.write_text("run,rig,speed\na,mixer,-1\n")
+    failed = subprocess.run(campaign(study, folder / "failed"), capture_output=True, text=True)
+    assert failed.returncode == 1 and "not all runs ended well" in failed.stderr, failed
+    assert "speed is -1" in (folder / "failed/snakemake.log").read_text()
+    assert not (folder / "failed/observations.csv").exists()
