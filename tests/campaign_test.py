@@ -11,9 +11,9 @@ import time
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 BIN = pathlib.Path(sys.argv[1])
-STUDY = """run,rig,speed,fill,grainDiameter,youngsModulus,wall_youngsModulus,settleTime,turns,seed
-slow,mixer,1.0,0.05,0.016,2e5,2e5,0.2,3,1
-fast,mixer,1.5,0.05,0.016,2e5,2e5,0.2,3,1
+STUDY = """run,rig,speed,fill,grainDiameter,youngsModulus,wall_youngsModulus,maxOverlap,settleTime,turns,seed
+slow,mixer,1.0,0.05,0.016,2e5,2e5,0.2,0.2,3,1
+fast,mixer,1.5,0.05,0.016,2e5,2e5,0.2,0.2,3,1
 """
 
 

@@ -120,9 +120,9 @@ echo "bad input: refused"
 
 # a campaign through the profile: two jobs, one of which fails
 cat >"$work/study.csv" <<'CSV'
-run,rig,speed,fill,grainDiameter,youngsModulus,wall_youngsModulus,settleTime,turns
-whole,mixer,1.5,0.05,0.016,2e5,2e5,0.2,3
-bad,mixer,-1,0.05,0.016,2e5,2e5,0.2,3
+run,rig,speed,fill,grainDiameter,youngsModulus,wall_youngsModulus,maxOverlap,settleTime,turns
+whole,mixer,1.5,0.05,0.016,2e5,2e5,0.2,0.2,3
+bad,mixer,-1,0.05,0.016,2e5,2e5,0.2,0.2,3
 CSV
 cd "$OLDPWD"
 if scripts/campaign "$work/study.csv" --out "$work/study" --bin "$bin" --slurm --every 5 >"$work/campaign.log" 2>&1; then
