@@ -54,6 +54,12 @@ with tempfile.TemporaryDirectory(prefix="vielto-campaign-") as name:
     again = subprocess.run(campaign(study, out), capture_output=True, text=True)
     assert again.returncode == 0, again.stdout + again.stderr + (out / "snakemake.log").read_text()
     assert tables(out) == tables(folder / "whole")
+    # in portions: the table of the second holds the first
+    one = subprocess.run([*campaign(study, folder / "parts"), "--only", "fast"], capture_output=True, text=True)
+    assert one.returncode == 0, one.stdout + one.stderr
+    assert not any(line.startswith("slow,") for line in (folder / "parts/observations.csv").open())
+    rest = subprocess.run([*campaign(study, folder / "parts"), "--only", "slow"], capture_output=True, text=True)
+    assert rest.returncode == 0 and tables(folder / "parts") == tables(folder / "whole"), rest.stdout + rest.stderr
     # nothing to do any more
     third = subprocess.run(campaign(study, out), capture_output=True, text=True)
     assert third.returncode == 0 and tables(out) == tables(folder / "whole")
