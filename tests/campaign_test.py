@@ -73,7 +73,7 @@ with tempfile.TemporaryDirectory(prefix="vielto-campaign-") as name:
         assert refused.returncode == 2 and fault in refused.stderr, refused
         assert not (folder / "bad").exists()
     missing = subprocess.run(campaign("nonsense", folder / "bad"), capture_output=True, text=True)
-    assert missing.returncode == 2 and "there is no study nonsense; known: grid" in missing.stderr, missing
+    assert missing.returncode == 2 and "there is no study nonsense; known: " in missing.stderr and "grid" in missing.stderr, missing
     study.write_text("run,rig,speed\na,mixer,-1\n")
     failed = subprocess.run(campaign(study, folder / "failed"), capture_output=True, text=True)
     assert failed.returncode == 1 and "not all runs ended well" in failed.stderr, failed
