@@ -10,7 +10,7 @@
 #include <set>
 
 #include "bad_input.h"
-#include "par_file.h"
+#include "rig.h"
 
 namespace vielto::gap {
 namespace {
@@ -18,42 +18,6 @@ namespace {
 namespace fs = std::filesystem;
 using Eigen::Index;
 using Eigen::VectorXd;
-
-struct Rig {
-  std::string folder, script, post;
-  std::set<std::string> known;              // every -var its files state
-  std::map<std::string, double> base;       // of every -var with a number
-  std::map<std::string, std::string> vars;  // condition -> -var
-};
-
-Rig read_rig(const TomlTable& file, const std::string& apparatus, const std::string& root) {
-  if (!file.has(apparatus)) file.refuse(apparatus, "is missing", fmt::format("add [{}]", apparatus));
-  const TomlTable t = file.table(apparatus);
-  t.only({"folder", "script", "parameters", "wall", "vars", "post"});
-  Rig rig;
-  rig.folder = (fs::path(root) / t.text("folder")).lexically_normal().string();
-  rig.script = t.text("script");
-  if (!fs::exists(fs::path(rig.folder) / rig.script))
-    t.refuse("script", fmt::format("{}/{} is not there", rig.folder, rig.script),
-             "state --root, or a rig that can be run");
-  if (t.has("post")) rig.post = t.text("post");
-  const TomlTable vars = t.table("vars");
-  for (const auto& entry : vars.raw())
-    rig.vars[std::string(entry.first.str())] = vars.text(std::string(entry.first.str()));
-  const auto add = [&](const std::string& path, const std::string& prefix) {
-    const ParFile par = ParFile::read((fs::path(rig.folder) / path).string());
-    for (const Parameter& p : par.all()) {
-      rig.known.insert(prefix + p.name);
-      char* end = nullptr;
-      const double value = std::strtod(p.value.c_str(), &end);
-      if (end != p.value.c_str() && *end == '\0') rig.base[prefix + p.name] = value;
-    }
-  };
-  if (const toml::array* files = t.raw()["parameters"].as_array())
-    for (const toml::node& node : *files) add(node.value_or<std::string>(""), "");
-  if (t.has("wall")) add(t.text("wall"), "wall_");
-  return rig;
-}
 
 const Effect& effect_named(const Inputs& inputs, const std::string& name) {
   return *std::find_if(inputs.effects.begin(), inputs.effects.end(), [&](const Effect& e) { return e.name == name; });
@@ -102,7 +66,7 @@ Plan plan_confirmation(const Inputs& inputs, const TableModel& model, const Diag
   std::set<std::string> done;
   for (const Observation& row : model.rows) {
     if (row.role != "check" || row.apparatus == "bench" || !done.insert(row.test).second) continue;
-    if (rigs.count(row.apparatus) == 0) rigs[row.apparatus] = read_rig(file, row.apparatus, root);
+    if (rigs.count(row.apparatus) == 0) rigs[row.apparatus] = Rig::read(file, row.apparatus, root);
     const Rig& rig = rigs[row.apparatus];
     for (const Variant& v : plan.variants)
       for (int seed = 1; seed <= seeds; ++seed) {
@@ -140,19 +104,9 @@ Plan plan_confirmation(const Inputs& inputs, const TableModel& model, const Diag
         for (std::size_t e = 0; e < v.effects.size(); ++e) {
           if (v.strengths[e] == 0) continue;
           const Effect& effect = effect_named(inputs, v.effects[e]);
-          for (const VarChange& change : effect.vars) {
-            if (!change.acts_on(row.apparatus)) continue;
-            // LIGGGHTS takes any -var in silence: one that the rig does not read would be no effect at all.
-            if (rig.known.count(change.name) == 0)
-              throw BadInput(effect.path, 0, change.name, fmt::format("is no parameter of {}", rig.script),
-                             "give the rig this switch first (gap/README.md)");
-            if (change.needs_base() && base.count(change.name) == 0)
-              throw BadInput(effect.path, 0, change.name,
-                             fmt::format("has no baseline value in the files of {}", row.apparatus),
-                             "state it in the rig's parameter file");
-            changed[change.name] = change.text(change.needs_base() ? base[change.name] : 0, v.strengths[e]);
-            if (change.rule == VarRule::switched) run.share = v.strengths[e];
-          }
+          for (const auto& [name, value] : rig.settings(effect, v.strengths[e], base)) changed[name] = value;
+          for (const VarChange& change : effect.vars)
+            if (change.acts_on(row.apparatus) && change.rule == VarRule::switched) run.share = v.strengths[e];
         }
         for (const auto& [name, value] : changed) var(name, value);
         for (const std::string& setting : extra) {

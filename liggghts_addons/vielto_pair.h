@@ -60,7 +60,8 @@ class NearPairs {
         growth = std::max(growth, grains->radius[i] - h.radius);
       }
       const double nearer = 2 * (sqrt(farthest) + growth);
-      if (nearer < margin_) return false;
+      // 1e-9: the margin was compared with rounded distances
+      if (nearer < margin_ * (1 - 1e-9)) return false;
       margin_ = 16 * nearer / age_;
     }
     age_ = 0;

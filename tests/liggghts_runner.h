@@ -314,4 +314,30 @@ inline std::string tray_stl(double half) {
   return stl({{Vec::Zero(), x, y}, {-x + z, y, z}, {x + z, z, y}, {-y + z, z, x}, {y + z, x, z}});
 }
 
+// Greatest difference in rows [first, last) of any column, over the greatest value of that column.
+inline double difference(const Table& a, const Table& b, std::size_t first, std::size_t last) {
+  double most = 0;
+  for (const std::string& column : a.names) {
+    double size = 0, differs = 0;
+    for (std::size_t k = first; k < last; k++) {
+      size = std::max(size, std::fabs(a.at(k, column)));
+      differs = std::max(differs, std::fabs(a.at(k, column) - b.at(k, column)));
+    }
+    if (size > 0) most = std::max(most, differs / size);
+  }
+  return most;
+}
+
+// Demands that a run ended with one line ERROR that holds all of `words`, and left no finished run folder.
+inline void expect_refusal(const std::filesystem::path& run, const Outcome& outcome, const std::vector<std::string>& words) {
+  EXPECT_NE(outcome.status, 0) << outcome.text;
+  EXPECT_FALSE(std::filesystem::exists(run));
+  std::istringstream in(outcome.text);
+  std::vector<std::string> errors;
+  for (std::string line; std::getline(in, line);)
+    if (line.rfind("ERROR", 0) == 0) errors.push_back(line);
+  ASSERT_EQ(errors.size(), 1u) << outcome.text;
+  for (const std::string& word : words) EXPECT_NE(errors[0].find(word), std::string::npos) << word << " in: " << errors[0];
+}
+
 }  // namespace vielto_test

@@ -2,9 +2,6 @@
 // Torque records longer than memory: turns are kept as blocks, means and uncertainties stay right, and `vielto post`
 // needs the same memory for any length.
 #include <gtest/gtest.h>
-#include <sys/resource.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <cmath>
 #include <cstdio>
@@ -12,6 +9,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "child_memory.h"
 #include "mixing_power.h"
 #include "synthetic_record.h"
 #include "torque_record.h"
@@ -115,27 +113,13 @@ void write_long(const fs::path& folder, long turns) {
   std::fclose(out);
 }
 
-// Largest resident memory of `vielto post`, in MB.
-double memory_of_post(const fs::path& folder) {
-  const pid_t child = fork();
-  if (child == 0) {
-    if (!std::freopen("/dev/null", "w", stdout)) _exit(99);
-    execl(VIELTO_BIN_DIR "/vielto", "vielto", "post", folder.c_str(), static_cast<char*>(nullptr));
-    _exit(98);
-  }
-  int status = 0;
-  rusage usage{};
-  wait4(child, &status, 0, &usage);
-  EXPECT_EQ(WEXITSTATUS(status), 0);
-  return static_cast<double>(usage.ru_maxrss) / 1024;
-}
-
 // The long file has over eighty megabytes and would take 440 MB of memory if every turn were kept.
 TEST_F(LongRecord, MemoryDoesNotGrowWithTheRecord) {
   write_long(folder_ / "short", 1100);
   write_long(folder_ / "long", 70000);
   EXPECT_GT(fs::file_size(folder_ / "long/torque.csv"), 80e6);
-  const double short_one = memory_of_post(folder_ / "short"), long_one = memory_of_post(folder_ / "long");
+  const double short_one = vielto_test::memory_of({"post", (folder_ / "short").string()});
+  const double long_one = vielto_test::memory_of({"post", (folder_ / "long").string()});
   EXPECT_LT(long_one, short_one + 15) << short_one << " MB and " << long_one << " MB";
   const auto power = nlohmann::json::parse(std::ifstream(folder_ / "long/post/power.json"));
   // Constant torque but for the swing, which is nothing over whole turns.

@@ -22,20 +22,6 @@ void expect_every_row_once(const Mixer& mixer, const std::string& name) {
   }
 }
 
-// Greatest difference in rows [first, last) of any column, over the greatest value of that column.
-double difference(const Table& a, const Table& b, std::size_t first, std::size_t last) {
-  double most = 0;
-  for (const std::string& column : a.names) {
-    double size = 0, differs = 0;
-    for (std::size_t k = first; k < last; k++) {
-      size = std::max(size, std::fabs(a.at(k, column)));
-      differs = std::max(differs, std::fabs(a.at(k, column) - b.at(k, column)));
-    }
-    if (size > 0) most = std::max(most, differs / size);
-  }
-  return most;
-}
-
 }  // namespace
 
 // The resumed run has the same state to the last digit; only sums over neighbours are taken in another order, and in a

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Fits of tables longer than memory: the same numbers as in memory, and memory that does not grow with the table.
 #include <gtest/gtest.h>
-#include <sys/resource.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <cmath>
 #include <cstdio>
@@ -13,6 +10,7 @@
 #include <random>
 
 #include "bad_input.h"
+#include "child_memory.h"
 #include "power_fit.h"
 
 namespace {
@@ -132,20 +130,9 @@ TEST_F(Stream, RefusesWhatATableInMemoryIsRefusedFor) {
   EXPECT_EQ(refusal(write("g.csv", kHeader + ("a," + row) + "b," + row)), "");
 }
 
-// Largest resident memory of `vielto fit`, in MB.
 double memory_of_fit(const fs::path& table, const fs::path& out) {
-  const std::string millet = (table.parent_path() / "millet.par").string(), corn = (table.parent_path() / "corn.par").string();
-  const pid_t child = fork();
-  if (child == 0) {
-    if (!std::freopen("/dev/null", "w", stdout)) _exit(99);
-    execl(VIELTO_BIN_DIR "/vielto", "vielto", "fit", table.c_str(), "--material", millet.c_str(), "--material", corn.c_str(), "--out", out.c_str(), static_cast<char*>(nullptr));
-    _exit(98);
-  }
-  int status = 0;
-  rusage usage{};
-  wait4(child, &status, 0, &usage);
-  EXPECT_EQ(WEXITSTATUS(status), 0);
-  return static_cast<double>(usage.ru_maxrss) / 1024;
+  return vielto_test::memory_of({"fit", table.string(), "--material", (table.parent_path() / "millet.par").string(), "--material",
+                                 (table.parent_path() / "corn.par").string(), "--out", out.string()});
 }
 
 // In memory a row took 1.8 kB; here 8 bytes a test: ten times the rows may cost 4 MB, and some for the allocator.

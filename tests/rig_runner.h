@@ -45,18 +45,6 @@ class Rig : public Liggghts {
     ASSERT_TRUE(std::filesystem::exists(folder / run / "run.json")) << outcome.text;
     ASSERT_FALSE(std::filesystem::exists(folder / (run + ".partial")));
   }
-  // Demands that the run ends with one line ERROR that holds all of `words`, and no finished run folder.
-  void must_refuse(const std::string& run, const Outcome& outcome, const std::vector<std::string>& words) const {
-    EXPECT_NE(outcome.status, 0) << outcome.text;
-    EXPECT_FALSE(std::filesystem::exists(folder / run));
-    std::istringstream in(outcome.text);
-    std::vector<std::string> errors;
-    for (std::string line; std::getline(in, line);)
-      if (line.rfind("ERROR", 0) == 0) errors.push_back(line);
-    ASSERT_EQ(errors.size(), 1u) << outcome.text;
-    for (const std::string& word : words)
-      EXPECT_NE(errors[0].find(word), std::string::npos) << word << " in: " << errors[0];
-  }
   Outcome vielto(const std::string& arguments) {
     return shell(fmt::format("cd '{}' && '{}/vielto' {}", folder.string(), VIELTO_BIN_DIR, arguments));
   }

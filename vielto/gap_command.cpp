@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// vielto gap {isolability, diagnose, next, confirm, discrepancy}: where the simulation departs from a measurement, why,
+// vielto gap {isolability, diagnose, next, confirm, discrepancy, plan, collect}: where the simulation departs from a measurement, why,
 // how far.
 #include <fmt/format.h>
 
@@ -18,6 +18,7 @@
 #include "confirm.h"
 #include "csv.h"
 #include "inputs.h"
+#include "library_plan.h"
 #include "next_question.h"
 #include "page.h"
 #include "sha256.h"
@@ -266,6 +267,25 @@ void run_discrepancy(const GapOptions& o) {
   write_discrepancies(o.out, entries);
 }
 
+LibraryPlan library_plan(const GapOptions& o) {
+  const InputFiles files = InputFiles{fs::path(o.table).parent_path().string(), o.files.effects, o.files.settings}.completed();
+  const std::string rigs =
+      o.rigs.empty() ? (fs::path(files.settings).parent_path() / "rigs.toml").string() : o.rigs;
+  return LibraryPlan::read(o.table, read_effects(files.effects, Settings::read(files.settings)), rigs, o.root);
+}
+
+void run_plan_command(const GapOptions& o) {
+  const LibraryPlan plan = library_plan(o);
+  write_study(plan, o.out);
+  fmt::print("{}: {} runs\n", o.out, plan.runs.size());
+}
+
+void run_collect(const GapOptions& o) {
+  const Collected c = collect_library(library_plan(o), o.runs, o.out);
+  fmt::print("{}: {} runs\n", o.out, c.runs);
+  if (!c.missing.empty()) fmt::print("not there yet: {}\n", fmt::join(c.missing, ", "));
+}
+
 }  // namespace
 
 void add_gap_command(CLI::App& app) {
@@ -342,6 +362,30 @@ void add_gap_command(CLI::App& app) {
   discrepancy_command->add_option("TABLE", o->tables, "observation tables, one for each law")->required();
   discrepancy_command->add_option("--out", o->out, "discrepancy.csv to write")->required();
   discrepancy_command->callback([o] { run_discrepancy(*o); });
+
+  const auto planned = [&](CLI::App* c) {
+    c->add_option("PLAN", o->table, "plan of the library, such as gap/library/plan.toml")->required();
+    c->add_option("--effects", o->files.effects, "folder of effect files; without it effects/ beside the plan's folder");
+    c->add_option("--settings", o->files.settings, "without it diagnosis.toml beside the plan's folder");
+    c->add_option("--rigs", o->rigs, "how a test becomes a run; without it rigs.toml beside the settings");
+    c->add_option("--root", o->root, "folder that holds cases/ and materials/")->capture_default_str();
+  };
+  CLI::App* plan_command = gap->add_subcommand(
+      "plan",
+      "the runs of a response library as a study for scripts/campaign\n"
+      "Example: vielto gap plan gap/library/plan.toml --out workflow/studies/library.csv");
+  planned(plan_command);
+  plan_command->add_option("--out", o->out, "study table to write")->required();
+  plan_command->callback([o] { run_plan_command(*o); });
+
+  CLI::App* collect_command = gap->add_subcommand(
+      "collect",
+      "makes the response library of the runs that are done, with the hashes of what they were made from\n"
+      "Example: vielto gap collect gap/library/plan.toml results/studies/library --out gap/library");
+  planned(collect_command);
+  collect_command->add_option("RESULTS", o->runs, "the campaign's folder")->required();
+  collect_command->add_option("--out", o->out, "folder of the library")->required();
+  collect_command->callback([o] { run_collect(*o); });
 }
 
 }  // namespace vielto

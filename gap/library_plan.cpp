@@ -1,0 +1,317 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "library_plan.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "bad_input.h"
+#include "condition.h"
+#include "csv.h"
+#include "sha256.h"
+
+namespace vielto::gap {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+// Every [[key]] of a table.
+std::vector<TomlTable> tables_of(const TomlTable& t, const std::string& key) {
+  std::vector<TomlTable> result;
+  if (!t.has(key)) return result;
+  const toml::array* list = t.raw()[key].as_array();
+  if (!list || list->empty() || !list->is_homogeneous(toml::node_type::table))
+    t.refuse(key, "is no list of tables", fmt::format("write [[{}]]", key));
+  for (const toml::node& node : *list) result.emplace_back(t.path(), *node.as_table());
+  return result;
+}
+
+std::vector<double> numbers_of(const TomlTable& t, const std::string& key) {
+  std::vector<double> result;
+  const toml::array* list = t.raw()[key].as_array();
+  if (!list || list->empty()) t.refuse(key, "is no list of numbers", fmt::format("write {} = [1, 2]", key));
+  for (const toml::node& node : *list) {
+    const auto value = node.is_number() ? node.value<double>() : std::nullopt;
+    if (!value || !std::isfinite(*value)) t.refuse(key, "holds something that is no number", "write numbers only");
+    result.push_back(*value);
+  }
+  return result;
+}
+
+int whole_of(const TomlTable& t, const std::string& key, int low, int high) {
+  const double value = t.number(key, low, high);
+  if (value != std::floor(value)) t.refuse(key, "is not whole", "write a whole number");
+  return static_cast<int>(value);
+}
+
+// Numbers of conditions, from 1.
+std::vector<std::size_t> places_of(const TomlTable& t, const std::string& key, std::size_t conditions) {
+  std::vector<std::size_t> result;
+  for (const double x : numbers_of(t, key)) {
+    if (x < 1 || x > static_cast<double>(conditions) || x != std::floor(x))
+      t.refuse(key, fmt::format("{} is no condition", x), fmt::format("write numbers from 1 to {}", conditions));
+    result.push_back(static_cast<std::size_t>(x) - 1);
+  }
+  return result;
+}
+
+std::map<std::string, double> numbers_by_name(const TomlTable& t) {
+  std::map<std::string, double> result;
+  for (const auto& entry : t.raw()) {
+    const std::string name(entry.first.str());
+    result[name] = t.number(name, -1e12, 1e12);
+  }
+  return result;
+}
+
+struct FamilyFile {
+  std::vector<std::string> names;
+  std::vector<std::vector<double>> members;
+};
+
+FamilyFile read_family_file(const std::string& path) {
+  std::ifstream in(path);
+  std::string line;
+  std::vector<std::string_view> fields;
+  if (!std::getline(in, line)) throw BadInput(path, 0, "cannot be read", "make it with workflow/calibrate fit");
+  split_fields(line, fields);
+  FamilyFile family;
+  if (fields.size() < 2 || fields[0] != "weight")
+    throw BadInput(path, 1, "has another header", "begin it with weight, then one column a parameter");
+  family.names.assign(fields.begin() + 1, fields.end());
+  for (int number = 2; std::getline(in, line); ++number) {
+    split_fields(line, fields);
+    family.members.emplace_back();
+    for (std::size_t k = 1; k < fields.size(); ++k) {
+      const auto value = finite_number(fields[k]);
+      if (!value) throw BadInput(path, number, fmt::format("'{}' is no number", fields[k]), "write decimal numbers");
+      family.members.back().push_back(*value);
+    }
+    if (family.members.back().size() != family.names.size())
+      throw BadInput(path, number, "has not as many fields as the header", "write one value a column");
+  }
+  if (family.members.empty()) throw BadInput(path, 0, "has no member", "make it with workflow/calibrate fit");
+  return family;
+}
+
+const Effect& effect_of(const TomlTable& t, const std::vector<Effect>& effects) {
+  const std::string name = t.text("name");
+  const auto found = std::find_if(effects.begin(), effects.end(), [&](const Effect& e) { return e.name == name; });
+  if (found == effects.end()) t.refuse("name", fmt::format("'{}' has no effect file", name), "add it to gap/effects");
+  return *found;
+}
+
+void add_rig(LibraryPlan& plan, const TomlTable& t, const std::vector<Effect>& effects, const TomlTable& rigs_file,
+             const std::string& root, int seeds, const FamilyFile& family, int members) {
+  t.only({"name", "settings", "conditions", "members_at", "effect"});
+  const Rig rig = Rig::read(rigs_file, t.text("name"), root);
+  plan.rigs.push_back(rig);
+  std::map<std::string, std::string> common;
+  if (t.has("settings")) {
+    const TomlTable settings = t.table("settings");
+    for (const auto& entry : settings.raw()) {
+      const std::string name(entry.first.str());
+      if (rig.known.count(name) == 0) settings.refuse(name, fmt::format("is no parameter of {}", rig.script), "see its .par file");
+      common[name] = settings.text(name);
+    }
+  }
+  std::vector<std::map<std::string, std::string>> conditions;
+  for (const TomlTable& c : tables_of(t, "conditions")) {
+    conditions.push_back(common);
+    for (const auto& [name, value] : numbers_by_name(c)) {
+      const auto var = rig.vars.find(name);
+      if (var == rig.vars.end()) c.refuse(name, "is no condition of this rig", "see gap/rigs.toml");
+      conditions.back()[var->second] = number_text(value);
+    }
+  }
+  if (conditions.empty()) conditions.push_back(common);
+  for (const std::string& name : plan.parameter_names)
+    if (rig.base.count(name) == 0)
+      throw BadInput(plan.family_file, 1, fmt::format("'{}' is no parameter of {}", name, rig.name), "name a -var of its cards");
+  std::map<std::string, double> own;
+  for (const std::string& name : plan.parameter_names) own[name] = rig.base.at(name);
+  if (!plan.baseline.empty() && plan.baseline != own)
+    t.refuse("name", "has other baseline parameters than the rigs above", "calibrated parameters belong to the cards");
+  plan.baseline = own;
+
+  // Seeds of their own: a run with an effect that starts from the baseline's packing would share its noise. Fixed ones:
+  // what is run already stays when the plan grows.
+  const auto add = [&](std::size_t c, const std::string& label, int seed, LibraryRun run) {
+    run.rig = rig.name;
+    run.seed = seed;
+    run.name = fmt::format("{}{}_{}_s{}", rig.name, c + 1, label, run.seed);
+    std::map<std::string, std::string> settings = conditions[c];
+    for (const auto& [name, value] : run.settings) settings[name] = value;
+    run.settings = std::move(settings);
+    plan.runs.push_back(std::move(run));
+  };
+  for (int s = 0; s < seeds; ++s)
+    for (std::size_t c = 0; c < conditions.size(); ++c) add(c, "none", s + 1, {"", "", "none", 0, 0, own, {}});
+  if (members > 0 && t.has("members_at"))
+    for (int m = 0; m < members; ++m) {
+      const std::size_t at = static_cast<std::size_t>((m + 0.5) * static_cast<double>(family.members.size()) / members);
+      LibraryRun run;
+      for (std::size_t k = 0; k < family.names.size(); ++k) {
+        run.parameters[family.names[k]] = family.members[at][k];
+        run.settings[family.names[k]] = number_text(family.members[at][k]);
+      }
+      for (const std::size_t c : places_of(t, "members_at", conditions.size())) add(c, fmt::format("member{}", m + 1), 101 + m, run);
+    }
+  for (const TomlTable& e : tables_of(t, "effect")) {
+    e.only({"name", "strengths", "at", "seeds"});
+    const Effect& effect = effect_of(e, effects);
+    if (!effect.acts_on_rig(rig.name)) e.refuse("name", fmt::format("does nothing in {}", rig.name), "leave it out");
+    for (const double strength : numbers_of(e, "strengths")) {
+      LibraryRun run{"", "", effect.name, strength, 0, own, rig.settings(effect, strength, [&] {
+                       std::map<std::string, double> base = rig.base;
+                       for (const auto& [name, value] : common)
+                         if (const auto number = finite_number(value)) base[name] = *number;
+                       return base;
+                     }())};
+      if (run.settings.empty() || strength < effect.prior_low || strength > effect.prior_high)
+        e.refuse("strengths", fmt::format("{} is 0 or outside the prior range", strength),
+                 fmt::format("write strengths from {} to {}", effect.prior_low, effect.prior_high));
+      for (int s = 0; s < (e.has("seeds") ? whole_of(e, "seeds", 1, 100) : 1); ++s)
+        for (const std::size_t c : places_of(e, "at", conditions.size()))
+          add(c, fmt::format("{}{}", effect.name, number_text(strength)), 301 + s, run);
+    }
+  }
+}
+
+json read_json(const std::string& path) {
+  std::ifstream in(path);
+  json j = json::parse(in, nullptr, false);
+  if (j.is_discarded()) throw BadInput(path, 0, "is no JSON", "make the run again");
+  return j;
+}
+
+}  // namespace
+
+LibraryPlan LibraryPlan::read(const std::string& path, const std::vector<Effect>& effects, const std::string& rigs_file,
+                              const std::string& root) {
+  const TomlTable file = TomlTable::read(path);
+  file.only({"seeds", "family", "rig", "bench"});
+  LibraryPlan plan;
+  const int seeds = whole_of(file, "seeds", 1, 100);
+  FamilyFile family;
+  int members = 0;
+  if (file.has("family")) {
+    const TomlTable t = file.table("family");
+    t.only({"file", "members"});
+    plan.family_file = (fs::path(path).parent_path() / t.text("file")).lexically_normal().string();
+    members = whole_of(t, "members", 1, 200);
+    family = read_family_file(plan.family_file);
+    plan.parameter_names = family.names;
+  }
+  const TomlTable rigs = TomlTable::read(rigs_file);
+  for (const TomlTable& t : tables_of(file, "rig")) add_rig(plan, t, effects, rigs, root, seeds, family, members);
+  for (const TomlTable& t : tables_of(file, "bench")) {
+    t.only({"observable", "rows"});
+    const auto unit = observable_unit("bench", t.text("observable"));
+    if (!unit) t.refuse("observable", "is no bench observable", "see doc/formats.md");
+    for (const TomlTable& r : tables_of(t, "rows")) {
+      Observation row;
+      row.apparatus = "bench";
+      row.role = "fit";
+      row.observable = t.text("observable");
+      row.unit = *unit;
+      for (const auto& [name, value] : numbers_by_name(r)) {
+        if (name == "value")
+          row.value = value;
+        else if (const auto member = condition_member(name))
+          row.*member = value;
+        else
+          r.refuse(name, "is no condition", "write value, speed, fill ...");
+      }
+      r.number("value", -1e12, 1e12);
+      row.u = std::max(1e-6, 1e-6 * std::fabs(row.value));  // not used: bench rows are not simulated
+      row.test = fmt::format("bench_{}{}", row.observable, plan.bench.size() + 1);
+      plan.bench.push_back(row);
+    }
+  }
+  return plan;
+}
+
+void write_study(const LibraryPlan& plan, const std::string& path) {
+  std::set<std::string> names;
+  for (const LibraryRun& run : plan.runs)
+    for (const auto& [name, value] : run.settings) names.insert(name);
+  std::string text = fmt::format("run,rig,seed,{}\n", fmt::join(names, ","));
+  for (const LibraryRun& run : plan.runs) {
+    text += fmt::format("{},{},{}", run.name, run.rig, run.seed);
+    for (const std::string& name : names) {
+      const auto value = run.settings.find(name);
+      text += "," + (value == run.settings.end() ? "" : value->second);
+    }
+    text += "\n";
+  }
+  write_whole_file(path, text);
+}
+
+Collected collect_library(const LibraryPlan& plan, const std::string& results, const std::string& folder) {
+  fs::create_directories(folder);
+  std::map<std::string, std::string> hash_of;  // file name -> hash of what is there now
+  std::map<std::string, std::string> inputs;   // path from the folder -> hash
+  for (const Rig& rig : plan.rigs)
+    for (const std::string& file : rig.files) {
+      const std::string hash = sha256_of_file(file);
+      hash_of[fs::path(file).filename().string()] = hash;
+      inputs[fs::relative(file, folder).string()] = hash;
+    }
+  const auto parameters_text = [&](const std::map<std::string, double>& values) {
+    std::string text;
+    for (const std::string& name : plan.parameter_names) text += "," + number_text(values.at(name));
+    return text;
+  };
+  std::string design = "test,effect,strength,seed,run_hash";
+  for (const std::string& name : plan.parameter_names) design += "," + name;
+  design += "\n";
+  std::vector<Observation> rows;
+  Collected collected;
+  for (const LibraryRun& run : plan.runs) {
+    const std::string description = (fs::path(results) / "runs" / run.name / "run.json").string();
+    const std::string table = (fs::path(results) / "post" / (run.name + ".csv")).string();
+    if (!fs::exists(description) || !fs::exists(table)) {
+      collected.missing.push_back(run.name);
+      continue;
+    }
+    json made = read_json(description);
+    for (const auto& [name, hash] : made["hashes"].items())
+      if (hash_of.count(name) && hash_of[name] != hash)
+        throw BadInput(description, 0, fmt::format("the run was made from another {}", name),
+                       "run it again, or bring the file back");
+    made["parameters"].erase("run");
+    design += fmt::format("{},{},{},{},{}{}\n", run.name, run.effect, number_text(run.strength), run.seed,
+                          sha256_of_text(made["hashes"].dump() + made["parameters"].dump()),
+                          parameters_text(run.parameters));
+    for (Observation row : read_observations(table)) {
+      row.test = run.name;
+      rows.push_back(row);
+    }
+    ++collected.runs;
+  }
+  if (collected.runs == 0) throw BadInput(results, 0, "holds no run of the plan", "run its study with scripts/campaign");
+  for (const Observation& row : plan.bench)
+    design += fmt::format("{},none,0,1,{}{}\n", row.test, sha256_of_text(fmt::format("{} {}", row.test, row.value)),
+                          parameters_text(plan.baseline));
+  const auto path = [&](const char* name) { return (fs::path(folder) / name).string(); };
+  write_whole_file(path("design.csv"), design);
+  write_observations(path("observations.csv"), rows);
+  if (!plan.bench.empty()) write_observations(path("bench.csv"), plan.bench);
+  if (!plan.family_file.empty()) {
+    fs::copy_file(plan.family_file, path("posterior.csv"), fs::copy_options::overwrite_existing);
+    inputs[fs::relative(plan.family_file, folder).string()] = sha256_of_file(plan.family_file);
+  }
+  std::string list = "file,sha256\n";
+  for (const auto& [file, hash] : inputs) list += file + "," + hash + "\n";
+  write_whole_file(path("inputs.csv"), list);
+  return collected;
+}
+
+}  // namespace vielto::gap

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Purpose: the plan of a response library (gap/library/plan.toml): which runs it needs, as a study for scripts/campaign, and
+// the library made of those that are done.
+//
+//   seeds = 6                                  of the baseline under every condition
+//   [family]                                   optional
+//   file = "PATH"                              weight,PARAMETER...; the library's posterior
+//   members = 8                                so many of it are run, evenly spaced along the file
+//   [[rig]]
+//   name = "mixer"                             of gap/rigs.toml
+//   settings = {grainDiameter = "0.012"}       -var of all its runs
+//   conditions = [{speed = 0.48, fill = 0.1}]  each with its baseline
+//   members_at = [1]                           numbers of the conditions at which the members are run, one seed each
+//   [[rig.effect]]                             may come several times for one effect
+//   name = "cohesion"
+//   strengths = [30000, 60000]
+//   at = [1]
+//   seeds = 1                                  optional
+//   [[bench]]                                  what the cards say, not simulated
+//   observable = "shaft_speed"
+//   rows = [{speed = 0.48, value = 0.48}]
+//
+// Errors: BadInput with file, line and key.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "effect.h"
+#include "observation_table.h"
+#include "rig.h"
+
+namespace vielto::gap {
+
+struct LibraryRun {
+  std::string name, rig, effect = "none";
+  double strength = 0;
+  int seed = 0;
+  std::map<std::string, double> parameters;     // of the family, all of them
+  std::map<std::string, std::string> settings;  // -var, without seed and run
+};
+
+struct LibraryPlan {
+  std::vector<std::string> parameter_names;  // of the family; empty: none
+  std::string family_file;
+  std::map<std::string, double> baseline;    // the family's parameters as the cards state them
+  std::vector<LibraryRun> runs;
+  std::vector<Observation> bench;
+  std::vector<Rig> rigs;
+
+  static LibraryPlan read(const std::string& path, const std::vector<Effect>& effects, const std::string& rigs_file,
+                          const std::string& root);
+};
+
+// The study table: run,rig,seed and one column for each -var.
+void write_study(const LibraryPlan& plan, const std::string& path);
+
+struct Collected {
+  int runs = 0;
+  std::vector<std::string> missing;  // runs of the plan without a result
+};
+
+// Writes design.csv, observations.csv, bench.csv, posterior.csv and inputs.csv to `folder` from the campaign's folder
+// `results` (runs/NAME/run.json, post/NAME.csv). Errors: BadInput also for a run that was made from other files than
+// those that are there now.
+Collected collect_library(const LibraryPlan& plan, const std::string& results, const std::string& folder);
+
+}  // namespace vielto::gap

@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// `vielto gap plan` and `vielto gap collect` through the command line, on the repository's own rigs and effects; the runs
+// themselves are stood in for by small files.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <vector>
+
+#include "par_file.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+const char* const kPlan = R"(seeds = 6
+[family]
+file = "../family.csv"
+members = 2
+[[rig]]
+name = "mixer"
+settings = {grainDiameter = "0.012"}
+conditions = [{speed = 0.5, fill = 0.1}, {speed = 1.5, fill = 0.2}]
+members_at = [2]
+[[rig.effect]]
+name = "cohesion"
+strengths = [30000]
+at = [1, 2]
+[[rig.effect]]
+name = "wall_friction"
+strengths = [12, -8]
+at = [1]
+[[bench]]
+observable = "wall_angle"
+rows = [{value = 25}]
+)";
+
+std::string content(const fs::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::ostringstream out;
+  out << in.rdbuf();
+  return out.str();
+}
+
+std::vector<std::map<std::string, std::string>> table(const fs::path& path) {
+  std::ifstream in(path);
+  std::string line, cell;
+  std::vector<std::string> header;
+  std::vector<std::map<std::string, std::string>> rows;
+  while (std::getline(in, line)) {
+    std::vector<std::string> cells;
+    std::istringstream fields(line + ",");
+    while (std::getline(fields, cell, ',')) cells.push_back(cell);
+    if (header.empty()) {
+      header = cells;
+      continue;
+    }
+    rows.emplace_back();
+    for (std::size_t k = 0; k < header.size(); ++k) rows.back()[header[k]] = k < cells.size() ? cells[k] : "";
+  }
+  return rows;
+}
+
+class GapLibraryPlan : public testing::Test {
+ protected:
+  void SetUp() override {
+    const auto* info = testing::UnitTest::GetInstance()->current_test_info();
+    folder_ = fs::temp_directory_path() / fmt::format("gap_plan_{}_{}", info->name(), getpid());
+    fs::remove_all(folder_);
+    fs::create_directories(folder_ / "library");
+    for (const char* name : {"effects", "diagnosis.toml", "next_tests.toml", "rigs.toml"})
+      fs::copy(fs::path(VIELTO_SOURCE_DIR) / "gap" / name, folder_ / name, fs::copy_options::recursive);
+    write("library/plan.toml", kPlan);
+    write("family.csv", "weight,frictionAngle,rollingResistance\n1,20,0.1\n1,22,0.2\n1,24,0.3\n1,26,0.4\n");
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  void write(const std::string& name, const std::string& text) {
+    fs::create_directories((folder_ / name).parent_path());
+    std::ofstream(folder_ / name, std::ios::binary) << text;
+  }
+  int gap(const std::string& arguments) {
+    const std::string command = fmt::format("cd '{}' && '{}/vielto' gap {} > out.txt 2> err.txt", folder_.string(),
+                                            VIELTO_BIN_DIR, arguments);
+    const int status = std::system(command.c_str());
+    out_ = content(folder_ / "out.txt");
+    err_ = content(folder_ / "err.txt");
+    return WEXITSTATUS(status);
+  }
+  const std::string root_ = "--root '" VIELTO_SOURCE_DIR "' ";
+  int plan() { return gap("plan library/plan.toml --out study.csv " + root_); }
+  int collect() { return gap("collect library/plan.toml results --out library " + root_); }
+
+  // What a campaign leaves of a run.
+  void finish(const std::map<std::string, std::string>& run, const std::string& script_hash) {
+    const json made = {{"hashes", {{"in.mixer", script_hash}}}, {"parameters", run}};
+    write("results/runs/" + run.at("run") + "/run.json", made.dump());
+    write("results/post/" + run.at("run") + ".csv",
+          fmt::format("test,role,apparatus,observable,value,u,unit,speed,fill,moisture,normal_stress,shear_velocity,tilt,"
+                      "wall,material\nany,fit,mixer,power,{},0.1,W,{},{},,,,,,millet\n",
+                      20 + 0.1 * std::stod(run.at("seed")), run.at("speed"), run.at("fill")));
+  }
+  std::string script_hash() {
+    const std::string file = (folder_ / "hash.txt").string();
+    EXPECT_EQ(std::system(("sha256sum '" VIELTO_SOURCE_DIR "/cases/mixer/in.mixer' > '" + file + "'").c_str()), 0);
+    return content(file).substr(0, 64);
+  }
+  void expect_refusal(const std::string& part) {
+    EXPECT_EQ(err_.rfind("vielto: ", 0), 0u) << err_;
+    EXPECT_NE(err_.find(part), std::string::npos) << "expected: " << part << "\ngot: " << err_;
+    EXPECT_EQ(std::count(err_.begin(), err_.end(), '\n'), 1) << err_;
+  }
+
+  fs::path folder_;
+  std::string out_, err_;
+};
+
+TEST_F(GapLibraryPlan, TheStudyHoldsBaselineMembersAndEffects) {
+  ASSERT_EQ(plan(), 0) << err_;
+  const auto rows = table(folder_ / "study.csv");
+  ASSERT_EQ(rows.size(), 6u * 2 + 2 + 2 + 2);
+  const auto wall = vielto::ParFile::read(VIELTO_SOURCE_DIR "/materials/steel.par").number("frictionAngle");
+  int baseline = 0, members = 0;
+  for (const auto& row : rows) {
+    EXPECT_EQ(row.at("rig"), "mixer");
+    EXPECT_EQ(row.at("grainDiameter"), "0.012");
+    const std::string& name = row.at("run");
+    if (name.find("_none_") != std::string::npos) {
+      ++baseline;
+      for (const char* var : {"cohesion", "cohesionEnergyDensity", "wall_frictionAngle", "frictionAngle"})
+        EXPECT_EQ(row.at(var), "") << name << " " << var;
+    } else if (name.find("_member") != std::string::npos) {
+      ++members;
+      EXPECT_EQ(row.at("speed"), "1.5");
+      EXPECT_EQ(row.at("rollingResistance"), row.at("frictionAngle") == "22" ? "0.2" : "0.4");
+    } else if (name.find("cohesion") != std::string::npos) {
+      EXPECT_EQ(row.at("cohesion"), "sjkr2");
+      EXPECT_EQ(row.at("cohesionEnergyDensity"), "30000");
+    } else {
+      // a contact takes the mean of both bodies: 2 deg of the wall are 1 deg of the contact
+      const double change = std::stod(row.at("wall_frictionAngle")) - wall;
+      EXPECT_TRUE(change == 24 || change == -16) << change;
+    }
+  }
+  EXPECT_EQ(baseline, 12);
+  EXPECT_EQ(members, 2);
+}
+
+TEST_F(GapLibraryPlan, CollectsWhatIsDoneAndNamesTheRest) {
+  ASSERT_EQ(plan(), 0) << err_;
+  const auto runs = table(folder_ / "study.csv");
+  const std::string hash = script_hash();
+  for (const auto& run : runs)
+    if (run.at("run").find("wall_friction-8") == std::string::npos) finish(run, hash);
+  ASSERT_EQ(collect(), 0) << err_;
+  EXPECT_NE(out_.find("not there yet: mixer1_wall_friction-8_s301"), std::string::npos) << out_;
+  const auto design = table(folder_ / "library/design.csv");
+  ASSERT_EQ(design.size(), runs.size() - 1 + 1);  // one is missing, one is of the bench
+  const auto card = vielto::ParFile::read(VIELTO_SOURCE_DIR "/materials/hulled_millet.par");
+  for (const auto& row : design) {
+    if (row.at("test").find("member") != std::string::npos) continue;
+    EXPECT_DOUBLE_EQ(std::stod(row.at("frictionAngle")), card.number("frictionAngle")) << row.at("test");
+  }
+  EXPECT_EQ(content(folder_ / "library/posterior.csv"), content(folder_ / "family.csv"));
+
+  // The library is one that the diagnosis reads.
+  write("t.csv",
+        "test,role,apparatus,observable,value,u,unit,speed,fill,moisture,normal_stress,shear_velocity,tilt,wall,material\n"
+        "a,fit,mixer,power,21,0.5,W,0.5,0.1,,,,,,millet\nb,fit,mixer,power,21,0.5,W,1.5,0.2,,,,,,millet\n");
+  EXPECT_EQ(gap("diagnose t.csv --library library --draws 20 --out answer"), 0) << err_;
+  EXPECT_TRUE(fs::exists(folder_ / "answer/diagnosis.json"));
+}
+
+TEST_F(GapLibraryPlan, RefusesRunsOfAnotherScript) {
+  ASSERT_EQ(plan(), 0) << err_;
+  for (const auto& run : table(folder_ / "study.csv")) finish(run, std::string(64, '0'));
+  EXPECT_EQ(collect(), 2) << out_;
+  expect_refusal("the run was made from another in.mixer");
+  EXPECT_FALSE(fs::exists(folder_ / "library/design.csv"));
+}
+
+TEST_F(GapLibraryPlan, RefusesAPlanThatCannotBeRun) {
+  const auto refused = [&](const std::string& from, const std::string& to, const std::string& part) {
+    std::string text = kPlan;
+    const auto at = text.find(from);
+    ASSERT_NE(at, std::string::npos);
+    write("library/plan.toml", text.replace(at, from.size(), to));
+    EXPECT_EQ(plan(), 2) << to;
+    expect_refusal(part);
+    EXPECT_FALSE(fs::exists(folder_ / "study.csv"));
+  };
+  refused("name = \"cohesion\"", "name = \"magic\"", "'magic' has no effect file");
+  refused("strengths = [30000]", "strengths = [900000]", "outside the prior range");
+  refused("strengths = [30000]", "strengths = [0]", "outside the prior range");
+  refused("at = [1, 2]", "at = [3]", "3 is no condition");
+  refused("grainDiameter = ", "grainDiametre = ", "is no parameter of in.mixer");
+  refused("speed = 0.5", "tilt = 0.5", "is no condition of this rig");
+  refused("wall_angle", "wall_angel", "is no bench observable");
+  refused("../family.csv", "nothing.csv", "cannot be read");
+}
+
+}  // namespace
