@@ -7,9 +7,12 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <mutex>
 #include <set>
+#include <thread>
 
 #include "bad_input.h"
+#include "csv.h"
 #include "rig.h"
 
 namespace vielto::gap {
@@ -61,6 +64,14 @@ Plan plan_confirmation(const Inputs& inputs, const TableModel& model, const Diag
     }
   }
 
+  // Settings of all runs; what an effect or the family changes starts from them.
+  std::map<std::string, std::string> common;
+  for (const std::string& setting : extra) {
+    const auto equals = setting.find('=');
+    if (equals == std::string::npos || equals == 0)
+      throw BadInput("--var " + setting, 0, "is no setting", "write --var NAME=VALUE");
+    common[setting.substr(0, equals)] = setting.substr(equals + 1);
+  }
   const TomlTable file = TomlTable::read(rigs_file);
   std::map<std::string, Rig> rigs;
   std::set<std::string> done;
@@ -92,11 +103,13 @@ Plan plan_confirmation(const Inputs& inputs, const TableModel& model, const Diag
           var(name->second, fmt::format("{:.9g}", value));
         }
         std::map<std::string, double> base = rig.base;
+        for (const auto& [name, value] : common)
+          if (const auto number = finite_number(value)) base[name] = *number;
         for (Index k = 0; k < v.parameters.size(); ++k) {
           const std::string& name = inputs.library.parameter_names[static_cast<std::size_t>(k)];
           base[name] = v.parameters[k];
         }
-        std::map<std::string, std::string> changed;
+        std::map<std::string, std::string> changed = common;
         for (Index k = 0; k < v.parameters.size(); ++k) {
           const std::string& name = inputs.library.parameter_names[static_cast<std::size_t>(k)];
           changed[name] = fmt::format("{:.9g}", base[name]);
@@ -109,12 +122,6 @@ Plan plan_confirmation(const Inputs& inputs, const TableModel& model, const Diag
             if (change.acts_on(row.apparatus) && change.rule == VarRule::switched) run.share = v.strengths[e];
         }
         for (const auto& [name, value] : changed) var(name, value);
-        for (const std::string& setting : extra) {
-          const auto equals = setting.find('=');
-          if (equals == std::string::npos || equals == 0)
-            throw BadInput("--var " + setting, 0, "is no setting", "write --var NAME=VALUE");
-          var(setting.substr(0, equals), setting.substr(equals + 1));
-        }
         var("seed", fmt::format("{}", seed));
         var("run", run.run);
         if (!rig.post.empty()) run.post = rig.post + " '" + run.run + "'";
@@ -129,21 +136,41 @@ std::string command_line(const PlannedRun& run) {
                      run.post.empty() ? "" : " && " + run.post);
 }
 
-void run_plan(const Plan& plan) {
+void run_plan(const Plan& plan, int jobs) {
+  std::vector<std::pair<std::string, std::string>> missing;  // command line, log
   for (const PlannedRun& run : plan.runs) {
     if (fs::exists(fs::path(run.run) / "post" / "observations.csv")) continue;
     fs::create_directories(fs::path(run.run).parent_path());
-    PlannedRun missing = run;
+    PlannedRun now = run;
     if (fs::exists(fs::path(run.run) / "run.json"))
-      missing.command = {"true"};  // complete, only its rows are missing
+      now.command = {"true"};  // complete, only its rows are missing
     else if (fs::exists(run.run + ".partial"))
-      missing.command.insert(missing.command.end(), {"-var", "resume", "yes"});
-    fmt::print("{}\n", command_line(missing));
-    std::fflush(stdout);
-    const std::string log = run.run + ".out";
-    if (std::system((command_line(missing) + " > '" + log + "' 2>&1").c_str()) != 0)
-      throw std::runtime_error(fmt::format("a run failed, see {}: {}", log, command_line(missing)));
+      now.command.insert(now.command.end(), {"-var", "resume", "yes"});
+    missing.emplace_back(command_line(now), run.run + ".out");
   }
+  std::mutex lock;
+  std::size_t next = 0;
+  std::string failed;
+  const auto work = [&] {
+    for (;;) {
+      std::pair<std::string, std::string> run;
+      {
+        const std::lock_guard<std::mutex> guard(lock);
+        if (next == missing.size() || !failed.empty()) return;
+        run = missing[next++];
+        fmt::print("{} of {}: {}\n", next, missing.size(), run.first);
+        std::fflush(stdout);
+      }
+      if (std::system((run.first + " > '" + run.second + "' 2>&1").c_str()) != 0) {
+        const std::lock_guard<std::mutex> guard(lock);
+        if (failed.empty()) failed = fmt::format("a run failed, see {}: {}", run.second, run.first);
+      }
+    }
+  };
+  std::vector<std::thread> workers;
+  for (int k = 0; k < jobs; ++k) workers.emplace_back(work);
+  for (std::thread& w : workers) w.join();
+  if (!failed.empty()) throw std::runtime_error(failed);
 }
 
 Shrink measured_shrink(const Plan& plan, const Inputs& inputs, const TableModel& model) {

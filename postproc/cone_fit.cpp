@@ -32,17 +32,17 @@ Line fit(const std::vector<SurfacePoint>& points) {
 std::vector<std::vector<double>> surface_cells(const Heap& heap) {
   const double d = heap.header.grain_diameter;
   double reach = 0;
-  for (const Grain& g : heap.grains) reach = std::max(reach, std::hypot(g.x, g.y));
+  for (const Grain& g : heap.grains) reach = std::max(reach, std::hypot(g.x[0], g.x[1]));
   const std::size_t cells = static_cast<std::size_t>(reach / d) + 1;
   std::vector<std::vector<double>> top(kConeStrips, std::vector<double>(cells, kEmpty));
   for (std::size_t s = 0; s < kConeStrips; ++s) {
     const double azimuth = 2 * kPi * static_cast<double>(s) / kConeStrips;
     for (const Grain& g : heap.grains) {
-      const double along = g.x * std::cos(azimuth) + g.y * std::sin(azimuth);
-      const double across = g.y * std::cos(azimuth) - g.x * std::sin(azimuth);
+      const double along = g.x[0] * std::cos(azimuth) + g.x[1] * std::sin(azimuth);
+      const double across = g.x[1] * std::cos(azimuth) - g.x[0] * std::sin(azimuth);
       if (along < 0 || std::fabs(across) > d) continue;
       double& cell = top[s][std::min(cells - 1, static_cast<std::size_t>(along / d))];
-      cell = std::max(cell, g.z + g.radius);
+      cell = std::max(cell, g.x[2] + g.radius);
     }
   }
   return top;

@@ -32,7 +32,7 @@ Heap read_heap(const std::string& path) {
   for (std::vector<double> row; file.next_row(row);) {
     if (!(row[radius] > 0))
       throw BadInput(path, file.line(), "radius_m", "is not above 0", "run the case again");
-    heap.grains.push_back({row[x], row[y], row[z], row[radius]});
+    heap.grains.push_back({{row[x], row[y], row[z]}, row[radius]});
   }
   if (heap.grains.empty()) throw BadInput(path, 0, "holds no grain", "run the case again");
   return heap;

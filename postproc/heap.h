@@ -6,11 +6,9 @@
 #include <string>
 #include <vector>
 
-namespace vielto {
+#include "grain.h"
 
-struct Grain {
-  double x = 0, y = 0, z = 0, radius = 0;  // m
-};
+namespace vielto {
 
 struct HeapHeader {
   double lift_speed = 0;         // m/s

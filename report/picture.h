@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "bed_angle.h"
 #include "cone_fit.h"
 #include "mixing_power.h"
 #include "shear_result.h"
@@ -30,6 +31,9 @@ void draw_shear(const ShearRecord& record, const ShearResult& result, const std:
 
 // The heap's profile: the surface of all strips, their mean, the fitted line, the flank shaded. Errors as above.
 void draw_heap(const Heap& heap, const ConeFit& fit, const std::string& path);
+// The angle of the bed in a drum at each look. Errors as above.
+void draw_bed(const BedAngle& bed, const std::string& path);
+
 // The same of any rig, whatever is there of grains and meshes; without a record nothing is turned. False if there is no
 // mesh. Errors: as draw_grains.
 bool draw_rig(const std::string& run, const TorqueRecord* record, const std::string& path);

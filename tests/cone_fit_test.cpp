@@ -37,7 +37,7 @@ Heap heap(const Cone& cone, unsigned seed) {
     const double x = reach * one(random), y = reach * one(random), z = H * height(random);
     const double r = std::hypot(x, y);
     const double angle = cone.angle + cone.ridge * (r > 0 ? x / r : 0);
-    if (z < H - r * std::tan(angle * pi / 180)) h.grains.push_back({x + cone.off_axis * d, y, z, d / 2});
+    if (z < H - r * std::tan(angle * pi / 180)) h.grains.push_back({{x + cone.off_axis * d, y, z}, d / 2});
   }
   return h;
 }

@@ -1,10 +1,11 @@
 # cases/shearbox and cases/repose through their own command lines, and what is made of their records.
-foreach(name shearbox_run_test repose_run_test)
+foreach(name shearbox_run_test repose_run_test drum_run_test)
   vielto_liggghts_test(${name})
   add_dependencies(${name} vielto)
   target_link_libraries(${name} PRIVATE nlohmann_json::nlohmann_json)
 endforeach()
 vielto_liggghts_test(liggghts_plate_test)
+vielto_test(bed_angle_test bed_angle_test.cpp LIBS vielto_post)
 vielto_test(cone_fit_test cone_fit_test.cpp LIBS vielto_post)
 vielto_test(shear_result_test shear_result_test.cpp LIBS vielto_post)
 add_dependencies(shear_result_test vielto)

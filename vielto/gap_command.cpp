@@ -36,7 +36,7 @@ struct GapOptions {
   std::vector<std::string> tables, ignored, only, without, vars;
   double runs_per_observation = 1;
   std::uint64_t seed = 1;
-  int seeds = 1, draws = 0;
+  int seeds = 1, draws = 0, jobs = 1;
   bool extrapolate = false, no_discrepancy = false, run = false;
 
   EmulatorOptions emulator() const {
@@ -238,7 +238,7 @@ void run_confirm(const GapOptions& o) {
   }
   // The prediction is on record before the runs begin.
   write_answer(o, d, provenance);
-  run_plan(plan);
+  run_plan(plan, o.jobs);
   d.shrink = measured_shrink(plan, q.inputs, q.model);
   write_answer(o, d, provenance);
 }
@@ -348,6 +348,7 @@ void add_gap_command(CLI::App& app) {
   confirm_command->add_option("--runs", o->runs, "where the run folders go; without it OUT/runs");
   confirm_command->add_option("--seeds", o->seeds, "runs of each")->check(CLI::Range(1, 1000))->capture_default_str();
   confirm_command->add_option("--var", o->vars, "NAME=VALUE for all runs, such as grainDiameter=0.012 (repeatable)");
+  confirm_command->add_option("--jobs", o->jobs, "runs at a time")->check(CLI::Range(1, 1000))->capture_default_str();
   confirm_command->add_flag("--run", o->run, "run them, then write the measured shrink");
   confirm_command->callback([o] { run_confirm(*o); });
 

@@ -17,11 +17,12 @@ struct PostOptions {
   TestLabel label{"", "fit", "", {}};
 };
 
-// A run folder stands for the record in it: torque.csv, shear.csv or heap.csv.
+// A run folder stands for the record in it: torque.csv, shear.csv, heap.csv or bed_1.csv.
 std::filesystem::path record_path(const std::string& run);
 
 void post_mixer(const std::filesystem::path& record, const PostOptions& options);
 void post_shear(const std::filesystem::path& record, const PostOptions& options);
+void post_drum(const std::filesystem::path& record, const PostOptions& options);
 void post_repose(const std::filesystem::path& record, const PostOptions& options);
 
 }  // namespace vielto

@@ -26,8 +26,10 @@ void post(const PostOptions& options) {
     post_shear(path, options);
   else if (rig == "repose")
     post_repose(path, options);
+  else if (rig == "drum")
+    post_drum(path, options);
   else
-    throw BadInput(path.string(), 0, "the record is of rig '" + rig + "'", "name one of mixer, shearbox, repose");
+    throw BadInput(path.string(), 0, "the record is of rig '" + rig + "'", "name one of mixer, shearbox, repose, drum");
 }
 
 }  // namespace
@@ -35,7 +37,7 @@ void post(const PostOptions& options) {
 fs::path record_path(const std::string& run) {
   const fs::path path(run);
   if (!fs::is_directory(path)) return path;
-  for (const char* name : {"shear.csv", "heap.csv"})
+  for (const char* name : {"shear.csv", "heap.csv", "bed_1.csv"})
     if (fs::exists(path / name)) return path / name;
   return path / "torque.csv";
 }
@@ -43,8 +45,8 @@ fs::path record_path(const std::string& run) {
 void add_post_command(CLI::App& app) {
   auto options = std::make_shared<PostOptions>();
   CLI::App* command = app.add_subcommand(
-      "post", "from a run's record: mixing power and its numbers, shear stress and friction, or angle of repose");
-  command->add_option("RUN", options->run, "run folder, or the record in it (torque.csv, shear.csv, heap.csv)")
+      "post", "from a run's record: mixing power and its numbers, shear stress and friction, angle of repose or of a bed in a drum");
+  command->add_option("RUN", options->run, "run folder, or the record in it (torque.csv, shear.csv, heap.csv, bed_1.csv)")
       ->required();
   command->add_option("--idle", options->idle, "run folder or torque.csv of the empty machine at the same speed");
   command->add_option("--turns", options->turns, "steady whole turns asked for")

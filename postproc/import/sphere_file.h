@@ -6,16 +6,12 @@
 // radius that is not positive.
 #pragma once
 
-#include <array>
 #include <string>
 #include <vector>
 
-namespace vielto {
+#include "grain.h"
 
-struct Grain {
-  std::array<double, 3> x;  // m
-  double radius;            // m
-};
+namespace vielto {
 
 std::vector<Grain> read_spheres(const std::string& path, double factor = 1);
 

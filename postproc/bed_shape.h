@@ -17,7 +17,7 @@
 #include <utility>
 #include <vector>
 
-#include "sphere_file.h"
+#include "grain.h"
 
 namespace vielto {
 
