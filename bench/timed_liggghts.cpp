@@ -99,13 +99,15 @@ class TimedWall : public Wall {
     if (!counting) return;
     clocks.wallTicks += __rdtsc() - start;
     int touching = 0;
-    if (clocks.steps % 50 == 1 && this->is_mesh_wall()) this->n_contacts_local(touching), clocks.wallContacts += touching;
+    if (clocks.steps % 50 == 1 && this->is_mesh_wall())
+      this->n_contacts_local(touching), clocks.wallContacts += touching;
   }
 };
 
 Fix* make_wall_fix(LAMMPS* lmp, int narg, char** arg) {
   for (int k = 3; k + 1 < narg; k++)
-    if (std::string(arg[k]) == "model" && std::string(arg[k + 1]) == "vielto") return new TimedWall<FixViEltoWall>(lmp, narg, arg);
+    if (std::string(arg[k]) == "model" && std::string(arg[k + 1]) == "vielto")
+      return new TimedWall<FixViEltoWall>(lmp, narg, arg);
   return new TimedWall<FixWallGran>(lmp, narg, arg);
 }
 
@@ -139,11 +141,12 @@ void timed_run(LAMMPS& lammps, const char* steps) {
   const double tick = seconds / static_cast<double>(__rdtsc() - ticks);
   counting = false;
   if (lammps.comm->me != 0) return;
-  printf("TIMED {\"steps\": %ld, \"grains\": %.0f, \"run_s\": %.6g, \"pair_s\": %.6g, \"wall_s\": %.6g, "
-         "\"pair_contacts\": %.6g, \"wall_contacts\": %.6g}\n",
-         clocks.steps, static_cast<double>(lammps.atom->natoms), seconds, tick * static_cast<double>(clocks.pairTicks),
-         tick * static_cast<double>(clocks.wallTicks), clocks.pairContacts / static_cast<double>(clocks.pairSamples),
-         clocks.wallContacts / static_cast<double>(clocks.pairSamples));
+  printf(
+      "TIMED {\"steps\": %ld, \"grains\": %.0f, \"run_s\": %.6g, \"pair_s\": %.6g, \"wall_s\": %.6g, "
+      "\"pair_contacts\": %.6g, \"wall_contacts\": %.6g}\n",
+      clocks.steps, static_cast<double>(lammps.atom->natoms), seconds, tick * static_cast<double>(clocks.pairTicks),
+      tick * static_cast<double>(clocks.wallTicks), clocks.pairContacts / static_cast<double>(clocks.pairSamples),
+      clocks.wallContacts / static_cast<double>(clocks.pairSamples));
   fflush(stdout);
 }
 

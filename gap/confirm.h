@@ -51,8 +51,8 @@ Plan plan_confirmation(const Inputs& inputs, const TableModel& model, const Diag
 // A command line for a shell.
 std::string command_line(const PlannedRun& run);
 
-// Runs what is missing, `jobs` at a time. Errors: std::runtime_error naming the command that failed; what has begun ends
-// first.
+// Runs what is missing, `jobs` at a time. Errors: std::runtime_error naming the command that failed; what has begun
+// ends first.
 void run_plan(const Plan& plan, int jobs);
 
 // The measured shrink. Errors: BadInput naming a run whose observations are missing.

@@ -117,7 +117,8 @@ void add_rig(LibraryPlan& plan, const TomlTable& t, const std::vector<Effect>& e
     const TomlTable settings = t.table("settings");
     for (const auto& entry : settings.raw()) {
       const std::string name(entry.first.str());
-      if (rig.known.count(name) == 0) settings.refuse(name, fmt::format("is no parameter of {}", rig.script), "see its .par file");
+      if (rig.known.count(name) == 0)
+        settings.refuse(name, fmt::format("is no parameter of {}", rig.script), "see its .par file");
       common[name] = settings.text(name);
     }
   }
@@ -133,7 +134,8 @@ void add_rig(LibraryPlan& plan, const TomlTable& t, const std::vector<Effect>& e
   if (conditions.empty()) conditions.push_back(common);
   for (const std::string& name : plan.parameter_names)
     if (rig.base.count(name) == 0)
-      throw BadInput(plan.family_file, 1, fmt::format("'{}' is no parameter of {}", name, rig.name), "name a -var of its cards");
+      throw BadInput(plan.family_file, 1, fmt::format("'{}' is no parameter of {}", name, rig.name),
+                     "name a -var of its cards");
   std::map<std::string, double> own;
   for (const std::string& name : plan.parameter_names) own[name] = rig.base.at(name);
   if (!plan.baseline.empty() && plan.baseline != own)
@@ -161,7 +163,8 @@ void add_rig(LibraryPlan& plan, const TomlTable& t, const std::vector<Effect>& e
         run.parameters[family.names[k]] = family.members[at][k];
         run.settings[family.names[k]] = number_text(family.members[at][k]);
       }
-      for (const std::size_t c : places_of(t, "members_at", conditions.size())) add(c, fmt::format("member{}", m + 1), 101 + m, run);
+      for (const std::size_t c : places_of(t, "members_at", conditions.size()))
+        add(c, fmt::format("member{}", m + 1), 101 + m, run);
     }
   for (const TomlTable& e : tables_of(t, "effect")) {
     e.only({"name", "strengths", "at", "seeds"});
@@ -287,16 +290,17 @@ Collected collect_library(const LibraryPlan& plan, const std::string& results, c
         throw BadInput(description, 0, fmt::format("the run was made from another {}", name),
                        "run it again, or bring the file back");
     made["parameters"].erase("run");
-    design += fmt::format("{},{},{},{},{}{}\n", run.name, run.effect, number_text(run.strength), run.seed,
-                          sha256_of_text(made["hashes"].dump() + made["parameters"].dump()),
-                          parameters_text(run.parameters));
+    design +=
+        fmt::format("{},{},{},{},{}{}\n", run.name, run.effect, number_text(run.strength), run.seed,
+                    sha256_of_text(made["hashes"].dump() + made["parameters"].dump()), parameters_text(run.parameters));
     for (Observation row : read_observations(table)) {
       row.test = run.name;
       rows.push_back(row);
     }
     ++collected.runs;
   }
-  if (collected.runs == 0) throw BadInput(results, 0, "holds no run of the plan", "run its study with scripts/campaign");
+  if (collected.runs == 0)
+    throw BadInput(results, 0, "holds no run of the plan", "run its study with scripts/campaign");
   for (const Observation& row : plan.bench)
     design += fmt::format("{},none,0,1,{}{}\n", row.test, sha256_of_text(fmt::format("{} {}", row.test, row.value)),
                           parameters_text(plan.baseline));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Purpose: the plan of a response library (gap/library/plan.toml): which runs it needs, as a study for scripts/campaign, and
-// the library made of those that are done.
+// Purpose: the plan of a response library (gap/library/plan.toml): which runs it needs, as a study for
+// scripts/campaign, and the library made of those that are done.
 //
 //   seeds = 6                                  of the baseline under every condition
 //   [family]                                   optional
@@ -44,7 +44,7 @@ struct LibraryRun {
 struct LibraryPlan {
   std::vector<std::string> parameter_names;  // of the family; empty: none
   std::string family_file;
-  std::map<std::string, double> baseline;    // the family's parameters as the cards state them
+  std::map<std::string, double> baseline;  // the family's parameters as the cards state them
   std::vector<LibraryRun> runs;
   std::vector<Observation> bench;
   std::vector<Rig> rigs;

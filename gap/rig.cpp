@@ -21,7 +21,9 @@ Rig Rig::read(const TomlTable& file, const std::string& name, const std::string&
   rig.name = name;
   rig.folder = (fs::path(root) / t.text("folder")).lexically_normal().string();
   rig.script = t.text("script");
-  const auto path_of = [&](const std::string& path) { return (fs::path(rig.folder) / path).lexically_normal().string(); };
+  const auto path_of = [&](const std::string& path) {
+    return (fs::path(rig.folder) / path).lexically_normal().string();
+  };
   if (!fs::exists(path_of(rig.script)))
     t.refuse("script", fmt::format("{}/{} is not there", rig.folder, rig.script),
              "state --root, or a rig that can be run");

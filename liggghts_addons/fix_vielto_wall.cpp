@@ -101,8 +101,8 @@ void FixViEltoWall::meet(FixMeshSurface* fixMesh, int imesh) {
     for (const int i : list) {
       if (i >= nlocal_) continue;
       const double radius = radius_ ? radius_[i] : r0_;
-      const double height = (x_[i][0] - origin[0]) * normal[0] + (x_[i][1] - origin[1]) * normal[1] +
-                            (x_[i][2] - origin[2]) * normal[2];
+      const double height =
+          (x_[i][0] - origin[0]) * normal[0] + (x_[i][1] - origin[1]) * normal[1] + (x_[i][2] - origin[2]) * normal[2];
       // 1e-6: the normal turns with the mesh and carries its round-off
       if (fabs(height) > radius * (1 + reach + 1e-6)) continue;
       double delta[3], bary[3];

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/* What an adapter tells of a contact's overlap and normal force: the tally's greatest and mean overlap, the grain pressed
-   hardest against a wall, and a stop at the overlap limit that names grains, place and step. Overlaps are measured against
-   the diameter of the smaller grain. */
+/* What an adapter tells of a contact's overlap and normal force: the tally's greatest and mean overlap, the grain
+   pressed hardest against a wall, and a stop at the overlap limit that names grains, place and step. Overlaps are
+   measured against the diameter of the smaller grain. */
 #ifndef VIELTO_OVERLAP_H
 #define VIELTO_OVERLAP_H
 
@@ -29,7 +29,8 @@ struct OverlapWatch {
   OverlapWatch() : limit(0.0) {}
 
   // sidata.Fn is the normal force, sidata.deltan the overlap
-  void note(LAMMPS_NS::LAMMPS* lmp, const LIGGGHTS::ContactModels::SurfacesIntersectData& sidata, double diameter) const {
+  void note(LAMMPS_NS::LAMMPS* lmp, const LIGGGHTS::ContactModels::SurfacesIntersectData& sidata,
+            double diameter) const {
     Tally& t = tally();
     if (sidata.deltan > t.overlapMax * diameter) {
       t.overlapMax = sidata.deltan / diameter;
@@ -58,8 +59,10 @@ struct OverlapWatch {
     const double* x = lmp->atom->x[sidata.i];
     char line[512];
     snprintf(line, sizeof line,
-             "vielto: step " BIGINT_FORMAT ": overlap of grain %d at (%.4g %.4g %.4g) m with %s is %.3g %% of the diameter, "
-             "over the limit of %.3g %% (maxOverlap); the grain is wedged or too soft: raise youngsModulus, or look at this place",
+             "vielto: step " BIGINT_FORMAT
+             ": overlap of grain %d at (%.4g %.4g %.4g) m with %s is %.3g %% of the diameter, "
+             "over the limit of %.3g %% (maxOverlap); the grain is wedged or too soft: raise youngsModulus, or look at "
+             "this place",
              lmp->update->ntimestep, lmp->atom->tag[sidata.i], x[0], x[1], x[2], partner, 100 * tally().overlapMax,
              100 * limit);
     stop_here(lmp, line);

@@ -3,11 +3,10 @@
 
    Purpose   The same forces, bit for bit, as LIGGGHTS' PairStyles::Granular, in less time. That loop prepares every
              neighbour as if it were a contact and resets the history of all that are not, which is half of the pair
-             time of a loose bed; here a neighbour out of contact costs its distance and a look at its flag. One contact's
-             data live in registers, because nothing takes their address.
-   Falls back to LIGGGHTS' loop where a feature is on that this one leaves out: virial, compute pair/gran/local, stored
-             contact forces, multicontact radii, summed normal forces, predefined insertion, non-spherical grains.
-   For       cohesion models without force at a distance. */
+             time of a loose bed; here a neighbour out of contact costs its distance and a look at its flag. One
+   contact's data live in registers, because nothing takes their address. Falls back to LIGGGHTS' loop where a feature
+   is on that this one leaves out: virial, compute pair/gran/local, stored contact forces, multicontact radii, summed
+   normal forces, predefined insertion, non-spherical grains. For       cohesion models without force at a distance. */
 #ifndef VIELTO_PAIR_H
 #define VIELTO_PAIR_H
 
@@ -37,16 +36,17 @@ struct ModelOfPair {
   typedef Model LIGGGHTS::PairStyles::Granular<Model>::*type;
 };
 
-/* Which neighbours of a list may touch: those nearer than a margin when all were looked at last, for as long as no grain
-   has gone, or grown, half of it since. The margin follows the grains' speed so that a look at all comes every 16 steps; it changes
-   nothing but the time. */
+/* Which neighbours of a list may touch: those nearer than a margin when all were looked at last, for as long as no
+   grain has gone, or grown, half of it since. The margin follows the grains' speed so that a look at all comes every 16
+   steps; it changes nothing but the time. */
 class NearPairs {
  public:
   // Call once a step, before the loop; tells whether this step looks at all.
   bool begin(const LAMMPS_NS::LAMMPS* lmp, const LAMMPS_NS::NeighList* list) {
     const LAMMPS_NS::Neighbor* const neighbor = lmp->neighbor;
     const LAMMPS_NS::Atom* const grains = lmp->atom;
-    const bool renewed = lmp->update->setupflag || build_ != neighbor->lastcall || neighbor->lastcall == lmp->update->ntimestep;
+    const bool renewed =
+        lmp->update->setupflag || build_ != neighbor->lastcall || neighbor->lastcall == lmp->update->ntimestep;
     build_ = neighbor->lastcall;
     const std::size_t count = grains->nlocal + grains->nghost;
     age_++;
@@ -89,8 +89,8 @@ class NearPairs {
   std::vector<int> near_;           // positions in the neighbour list of one grain after the other
   std::vector<std::size_t> start_;  // of a grain's in near_
   double margin_ = 0;
-  bigint build_ = -1;               // the neighbour list that near_ belongs to
-  int age_ = 0;                     // steps since the last look at all
+  bigint build_ = -1;  // the neighbour list that near_ belongs to
+  int age_ = 0;        // steps since the last look at all
 };
 
 template <class Style>
@@ -105,7 +105,8 @@ class FastPair : public LIGGGHTS::PairStyles::Granular<LIGGGHTS::ContactModels::
   void compute_force(LAMMPS_NS::PairGran* pg, int eflag, int vflag, int addflag) override {
     const bool plain = !eflag && !vflag && !(pg->cpl() && addflag) && !pg->storeContactForces() &&
                        !pg->storeContactForcesStress() && !pg->storeSumDelta() && !pg->store_sum_normal_force() &&
-                       pg->listgranhistory && program_->atom->rmass && program_->atom->sphere_flag && !program_->atom->shapetype_flag &&
+                       pg->listgranhistory && program_->atom->rmass && program_->atom->sphere_flag &&
+                       !program_->atom->shapetype_flag &&
                        program_->modify->n_fixes_style("insert/stream/predefined") == 0;
     if (!plain) return General::compute_force(pg, eflag, vflag, addflag);
     pg->evflag = pg->vflag_fdotr = 0;
@@ -145,7 +146,8 @@ class FastPair : public LIGGGHTS::PairStyles::Granular<LIGGGHTS::ContactModels::
       const Touch& t = touches_[k];
       // LIGGGHTS keeps the three values of a grain after those of the one before
       const Touch& ahead = touches_[std::min(k + 8, found - 1)];
-      for (const double* values : {v[0], omega[0], f[0], torque[0]}) __builtin_prefetch(values + 3 * static_cast<std::size_t>(ahead.j));
+      for (const double* values : {v[0], omega[0], f[0], torque[0]})
+        __builtin_prefetch(values + 3 * static_cast<std::size_t>(ahead.j));
       __builtin_prefetch(ahead.history, 1);
       __builtin_prefetch(ahead.history + 7, 1);
       const int i = t.i, j = t.j;
@@ -193,8 +195,8 @@ class FastPair : public LIGGGHTS::PairStyles::Granular<LIGGGHTS::ContactModels::
     double* history;
   };
 
-  /* Pairs in contact, in the order of the neighbour list. Apart from the law, so that its long chain of operations is not
-     broken off at every neighbour that the processor has wrongly guessed to touch. */
+  /* Pairs in contact, in the order of the neighbour list. Apart from the law, so that its long chain of operations is
+     not broken off at every neighbour that the processor has wrongly guessed to touch. */
   std::size_t find_touches(LAMMPS_NS::PairGran* pg) {
     LAMMPS_NS::NeighList* const list = pg->list;
     double* const* const x = program_->atom->x;
@@ -233,7 +235,8 @@ class FastPair : public LIGGGHTS::PairStyles::Granular<LIGGGHTS::ContactModels::
     return found;
   }
 
-  static VIELTO_INLINE void add(double factor, const LIGGGHTS::ContactModels::ForceData& forces, double* f, double* torque) {
+  static VIELTO_INLINE void add(double factor, const LIGGGHTS::ContactModels::ForceData& forces, double* f,
+                                double* torque) {
     for (int d = 0; d < 3; d++) {
       f[d] += factor * forces.delta_F[d];
       torque[d] += factor * forces.delta_torque[d];

@@ -23,7 +23,8 @@ Look read_look(const std::string& path) {
   RecordFile file(path, "a run folder or its bed_1.csv");
   const Keys& keys = file.keys();
   if (keys.integer("schema", 0) != 1)
-    throw BadInput(path, keys.line("schema"), "the schema is not 1", "write the record with this package's own version");
+    throw BadInput(path, keys.line("schema"), "the schema is not 1",
+                   "write the record with this package's own version");
   Look look;
   BedHeader& h = look.header;
   h.speed = keys.number("speed", 0, true);

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Dynamic angle of the bed in a rotating drum, from looks at its grains: bed_1.csv ... bed_N.csv of cases/drum, schema 1,
-// lines `# key=value`, then x_m,y_m,z_m,radius_m of each grain. The drum's axis is x; gravity is (-sin tilt, 0, -cos tilt).
+// Dynamic angle of the bed in a rotating drum, from looks at its grains: bed_1.csv ... bed_N.csv of cases/drum, schema
+// 1, lines `# key=value`, then x_m,y_m,z_m,radius_m of each grain. The drum's axis is x; gravity is (-sin tilt, 0, -cos
+// tilt).
 //
 // Angle: the slope of the straight line through the free surface seen along the axis, in the plane across it
-// (surface_angle in bed_shape.h, across y, up z), over the grains of the whole drum where the axis lies level, and of the
-// kEndDiameters grain diameters next to the lower end face (x = 0) where it is tilted. Its mean over the looks, u with the
-// autocorrelated scatter over time (over_time).
+// (surface_angle in bed_shape.h, across y, up z), over the grains of the whole drum where the axis lies level, and of
+// the kEndDiameters grain diameters next to the lower end face (x = 0) where it is tilted. Its mean over the looks, u
+// with the autocorrelated scatter over time (over_time).
 //
 // Errors: BadInput as record_file.h, for looks that are not all there or of different runs, and for a surface of less
 // than four strips.
@@ -21,9 +22,9 @@ namespace vielto {
 constexpr double kEndDiameters = 3;
 
 struct BedHeader {
-  double speed = 0, fill = 0, tilt = 0;                                      // 1/s, 1, deg
-  double drum_diameter = 0, drum_length = 0, grain_diameter = 0;             // m
-  double youngs_modulus = 0, dt_over_tc = 0;                                 // Pa, 1
+  double speed = 0, fill = 0, tilt = 0;                           // 1/s, 1, deg
+  double drum_diameter = 0, drum_length = 0, grain_diameter = 0;  // m
+  double youngs_modulus = 0, dt_over_tc = 0;                      // Pa, 1
   std::string seed, material, wall;
   bool provisional = false;
 };
@@ -37,8 +38,8 @@ struct BedAngle {
   BedHeader header;
   std::size_t grains = 0;
   std::vector<BedLook> looks;
-  Estimate angle;                 // deg
-  std::vector<Grain> last;        // grains of the last look that were looked at
+  Estimate angle;           // deg
+  std::vector<Grain> last;  // grains of the last look that were looked at
 };
 
 // `path`: bed_1.csv of a run folder.

@@ -41,12 +41,12 @@ nlohmann::ordered_json bed_json(const BedAngle& bed) {
 
 std::string bed_table(const BedAngle& bed) {
   const BedHeader& h = bed.header;
-  std::string text =
-      fmt::format("{}{} in a drum of {}, {} grains of {} mm, fill {}, {} 1/s, tilt {} deg, seed {}\n\n", h.material,
-                  h.provisional ? " (provisional)" : "", h.wall, bed.grains, 1e3 * h.grain_diameter, h.fill, h.speed,
-                  h.tilt, h.seed);
+  std::string text = fmt::format("{}{} in a drum of {}, {} grains of {} mm, fill {}, {} 1/s, tilt {} deg, seed {}\n\n",
+                                 h.material, h.provisional ? " (provisional)" : "", h.wall, bed.grains,
+                                 1e3 * h.grain_diameter, h.fill, h.speed, h.tilt, h.seed);
   text += fmt::format("  {:<44}{:>12}{:>12}  {}\n", "bed", "value", "u (k=1)", "unit");
-  text += fmt::format("  {:<44}{:>12.5g}{:>12.2g}  deg\n", "dynamic angle of the free surface", bed.angle.value, bed.angle.u);
+  text += fmt::format("  {:<44}{:>12.5g}{:>12.2g}  deg\n", "dynamic angle of the free surface", bed.angle.value,
+                      bed.angle.u);
   for (const BedLook& look : bed.looks)
     text += fmt::format("  {:<44}{:>12.5g}{:>12.2g}  deg\n", fmt::format("  after {:.3f} turns", look.turn),
                         look.angle.value, look.angle.u);

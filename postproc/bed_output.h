@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What `vielto post` writes of a rotating drum: drum.json and table.txt (the numbers, bed_angle.h), looks.csv (the angle at
-// each look), observations.csv (one row, `angle`). SI units, angles in degrees; *_u: standard uncertainty (k = 1).
+// What `vielto post` writes of a rotating drum: drum.json and table.txt (the numbers, bed_angle.h), looks.csv (the
+// angle at each look), observations.csv (one row, `angle`). SI units, angles in degrees; *_u: standard uncertainty (k =
+// 1).
 #pragma once
 
 #include <nlohmann/json.hpp>

@@ -44,7 +44,8 @@ double part_inside(const Grain& g, const std::array<double, 6>& box) {
 
 }  // namespace
 
-Estimate surface_angle(const std::vector<Grain>& grains, BedAxes axes, std::optional<std::pair<double, double>> window) {
+Estimate surface_angle(const std::vector<Grain>& grains, BedAxes axes,
+                       std::optional<std::pair<double, double>> window) {
   double low = std::numeric_limits<double>::infinity(), high = -low, radius = 0;
   for (const Grain& g : grains) {
     low = std::min(low, g.x[axes.across]);
@@ -66,7 +67,8 @@ Estimate surface_angle(const std::vector<Grain>& grains, BedAxes axes, std::opti
   double n = 0, h = 0, v = 0;
   for (const Grain* g : highest)
     if (g) ++n, h += g->x[axes.across], v += top(*g);
-  if (n < kLeastStrips) throw std::invalid_argument("the surface in the window is less than four strips of three radii wide");
+  if (n < kLeastStrips)
+    throw std::invalid_argument("the surface in the window is less than four strips of three radii wide");
   h /= n;
   v /= n;
   double hh = 0, hv = 0, vv = 0;

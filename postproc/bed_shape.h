@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // What a bed of spheres shows: the slope of its free surface and its bulk density.
 //
-// Surface: along the horizontal coordinate across the axis, the window is cut into strips three mean radii wide; the top
-// of the highest grain of each is a point of the surface. The slope is that of the least-squares line through these
+// Surface: along the horizontal coordinate across the axis, the window is cut into strips three mean radii wide; the
+// top of the highest grain of each is a point of the surface. The slope is that of the least-squares line through these
 // points, its standard error that of the line, from their scatter about it. Default window: the middle half of
 // the grains' extent.
 // Bulk density: grain density times the volume of grains in a box (that of a sphere the box cuts from a grid of points
-// in it; an overlap counts twice, as the grains' mass does). Its standard error is the scatter of the box's eighths over
-// sqrt(8). The box should lie inside the bed, a few grains off walls and surface.
+// in it; an overlap counts twice, as the grains' mass does). Its standard error is the scatter of the box's eighths
+// over sqrt(8). The box should lie inside the bed, a few grains off walls and surface.
 //
 // Errors: std::invalid_argument saying what is wrong: fewer than four strips that hold grains, no grain in an eighth.
 #pragma once

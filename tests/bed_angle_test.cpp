@@ -35,10 +35,11 @@ class BedAngleOf : public testing::Test {
   void look(int k, int frames, double tilt, double near, double far, std::mt19937_64& random, int grains = 6000) {
     std::uniform_real_distribution<double> one(-1, 1);
     std::ofstream out(folder_ / fmt::format("bed_{}.csv", k));
-    out << fmt::format("# schema=1\n# rig=drum\n# turn={}\n# speed=0.083333\n# fill=0.5\n# tilt={}\n# drum_diameter=0.15\n"
-                       "# drum_length=0.05\n# grain_diameter={}\n# youngs_modulus=1e5\n# dt_over_tc=0.05\n# frames={}\n"
-                       "# seed=1\n# material=wheat\n# wall=A\n# provisional=0\nx_m,y_m,z_m,radius_m\n",
-                       0.2 + 0.02 * k, tilt, kDiameter, frames);
+    out << fmt::format(
+        "# schema=1\n# rig=drum\n# turn={}\n# speed=0.083333\n# fill=0.5\n# tilt={}\n# drum_diameter=0.15\n"
+        "# drum_length=0.05\n# grain_diameter={}\n# youngs_modulus=1e5\n# dt_over_tc=0.05\n# frames={}\n"
+        "# seed=1\n# material=wheat\n# wall=A\n# provisional=0\nx_m,y_m,z_m,radius_m\n",
+        0.2 + 0.02 * k, tilt, kDiameter, frames);
     for (int i = 0; i < grains;) {
       const double x = kLength * (0.5 + 0.5 * one(random)), y = kRadius * one(random), z = kRadius * one(random);
       const double slope = std::tan((x < 3 * kDiameter ? near : far) * pi / 180);
@@ -53,8 +54,8 @@ class BedAngleOf : public testing::Test {
 
 }  // namespace
 
-// The line through the highest grains has the plane's slope: within three of its own standard uncertainties over 12 looks,
-// which must themselves be small enough to tell 2 degrees.
+// The line through the highest grains has the plane's slope: within three of its own standard uncertainties over 12
+// looks, which must themselves be small enough to tell 2 degrees.
 TEST_F(BedAngleOf, APlaneIsItsSlope) {
   std::mt19937_64 random(3);
   for (const double angle : {20.0, 36.0, 50.0}) {

@@ -136,8 +136,8 @@ TEST(CohFrictBond, BrokenInShearWhileStretchedBearsNothing) {
   EXPECT_EQ(dot(load.moment, load.moment), 0.0);
 }
 
-// Stored: F_n^2/(2 k_n) + F_s^2/(2 k_s). A cap takes (trial - capped) (old + capped)/(2 k): the mean force over the slip
-// that is no longer stored.
+// Stored: F_n^2/(2 k_n) + F_s^2/(2 k_s). A cap takes (trial - capped) (old + capped)/(2 k): the mean force over the
+// slip that is no longer stored.
 TEST(CohFrictEnergy, OfACapIsItsMeanForceTimesTheSlip) {
   cohfrict::Memory memory = fresh(false);
   cohfrict::Load load;

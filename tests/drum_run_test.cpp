@@ -40,8 +40,7 @@ TEST(DrumRun, TurnsABedWithAnAngle) {
   const double volume = pi / 6 * d * d * d * (2.0 / 3 + (std::pow(1 - s, 3) + std::pow(1 + s, 3)) / 6);
   EXPECT_NEAR(static_cast<double>(first.rows.size()), 0.5 * 780 * pi * 0.075 * 0.075 * 0.05 / (1400 * volume), 1);
   EXPECT_EQ(first.rows.size(), last.rows.size());
-  for (std::size_t k = 0; k < last.rows.size(); k++)
-    EXPECT_LT(std::hypot(last.at(k, "y_m"), last.at(k, "z_m")), 0.075);
+  for (std::size_t k = 0; k < last.rows.size(); k++) EXPECT_LT(std::hypot(last.at(k, "y_m"), last.at(k, "z_m")), 0.075);
   // turning from y to z (right-handed about x) lifts the bed on the side of positive y
   EXPECT_GT(middle(last).y, 0.005);
   EXPECT_LT(middle(last).z, 0);

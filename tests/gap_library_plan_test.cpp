@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// `vielto gap plan` and `vielto gap collect` through the command line, on the repository's own rigs and effects; the runs
-// themselves are stood in for by small files.
+// `vielto gap plan` and `vielto gap collect` through the command line, on the repository's own rigs and effects; the
+// runs themselves are stood in for by small files.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -88,8 +88,8 @@ class GapLibraryPlan : public testing::Test {
     std::ofstream(folder_ / name, std::ios::binary) << text;
   }
   int gap(const std::string& arguments) {
-    const std::string command = fmt::format("cd '{}' && '{}/vielto' gap {} > out.txt 2> err.txt", folder_.string(),
-                                            VIELTO_BIN_DIR, arguments);
+    const std::string command =
+        fmt::format("cd '{}' && '{}/vielto' gap {} > out.txt 2> err.txt", folder_.string(), VIELTO_BIN_DIR, arguments);
     const int status = std::system(command.c_str());
     out_ = content(folder_ / "out.txt");
     err_ = content(folder_ / "err.txt");
@@ -103,10 +103,11 @@ class GapLibraryPlan : public testing::Test {
   void finish(const std::map<std::string, std::string>& run, const std::string& script_hash) {
     const json made = {{"hashes", {{"in.mixer", script_hash}}}, {"parameters", run}};
     write("results/runs/" + run.at("run") + "/run.json", made.dump());
-    write("results/post/" + run.at("run") + ".csv",
-          fmt::format("test,role,apparatus,observable,value,u,unit,speed,fill,moisture,normal_stress,shear_velocity,tilt,"
-                      "wall,material\nany,fit,mixer,power,{},0.1,W,{},{},,,,,,millet\n",
-                      20 + 0.1 * std::stod(run.at("seed")), run.at("speed"), run.at("fill")));
+    write(
+        "results/post/" + run.at("run") + ".csv",
+        fmt::format("test,role,apparatus,observable,value,u,unit,speed,fill,moisture,normal_stress,shear_velocity,tilt,"
+                    "wall,material\nany,fit,mixer,power,{},0.1,W,{},{},,,,,,millet\n",
+                    20 + 0.1 * std::stod(run.at("seed")), run.at("speed"), run.at("fill")));
   }
   std::string script_hash() {
     const std::string file = (folder_ / "hash.txt").string();
@@ -173,7 +174,8 @@ TEST_F(GapLibraryPlan, CollectsWhatIsDoneAndNamesTheRest) {
 
   // The library is one that the diagnosis reads.
   write("t.csv",
-        "test,role,apparatus,observable,value,u,unit,speed,fill,moisture,normal_stress,shear_velocity,tilt,wall,material\n"
+        "test,role,apparatus,observable,value,u,unit,speed,fill,moisture,normal_stress,shear_velocity,tilt,wall,"
+        "material\n"
         "a,fit,mixer,power,21,0.5,W,0.5,0.1,,,,,,millet\nb,fit,mixer,power,21,0.5,W,1.5,0.2,,,,,,millet\n");
   EXPECT_EQ(gap("diagnose t.csv --library library --draws 20 --out answer"), 0) << err_;
   EXPECT_TRUE(fs::exists(folder_ / "answer/diagnosis.json"));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/* Drag of the air, through `liggghts`. The reference integrates m dv/dt = m g - (pi/8) C_D rho D^2 v^2 of one sphere with
-   C_D(Re) as Schiller and Naumann write it, by Runge's fourth-order rule in steps of a twentieth. */
+/* Drag of the air, through `liggghts`. The reference integrates m dv/dt = m g - (pi/8) C_D rho D^2 v^2 of one sphere
+   with C_D(Re) as Schiller and Naumann write it, by Runge's fourth-order rule in steps of a twentieth. */
 #include "liggghts_runner.h"
 
 namespace {
@@ -39,10 +39,11 @@ TEST_P(AirDrag, IsThatOfTheRealGrain) {
   const Sphere grain{1, 0.004, density, {0.001, 0.002, 0.05}, {0.6 * v, 0, -0.8 * v}, {3, 0, 0}};
   Liggghts run;
   const long steps = std::lround(time / dt);
-  run.script = head(run, {grain}, {Material()}, 1.0) +
-               fmt::format("timestep {}\nfix move all nve/sphere\nfix gravity all gravity {} vector 0.6 0 -0.8\n", dt, g) +
-               fmt::format("fix drag all vielto/drag scale {} diameter {} density {}\n", scale, D, density) +
-               dump_grains("states", steps) + fmt::format("run {}\n", steps);
+  run.script =
+      head(run, {grain}, {Material()}, 1.0) +
+      fmt::format("timestep {}\nfix move all nve/sphere\nfix gravity all gravity {} vector 0.6 0 -0.8\n", dt, g) +
+      fmt::format("fix drag all vielto/drag scale {} diameter {} density {}\n", scale, D, density) +
+      dump_grains("states", steps) + fmt::format("run {}\n", steps);
   run.must();
   const Table last = run.dump("states").back();
   const double expected = speed_after(v, time, g, scale, D, density, dt / 20), speed = last.v(0).norm();
@@ -53,14 +54,15 @@ TEST_P(AirDrag, IsThatOfTheRealGrain) {
   EXPECT_GT(std::fabs(speed - v - g * time), 20 * dt * rate * v) << "the drag was seen";
 }
 
-// Millet falling to its terminal velocity; thrown fast, Re over 1000; a dust grain in Stokes' range; four times the drag.
+// Millet falling to its terminal velocity; thrown fast, Re over 1000; a dust grain in Stokes' range; four times the
+// drag.
 INSTANTIATE_TEST_SUITE_P(Flights, AirDrag,
-                         testing::Values(Fall{0.01, 9.81, 1, 0.0018, 0.05}, Fall{12, 0, 1, 0.0018, 0.02}, Fall{0.02, 0, 1, 1e-4, 0.02},
-                                         Fall{2, 0, 4, 0.0018, 0.03}));
+                         testing::Values(Fall{0.01, 9.81, 1, 0.0018, 0.05}, Fall{12, 0, 1, 0.0018, 0.02},
+                                         Fall{0.02, 0, 1, 1e-4, 0.02}, Fall{2, 0, 4, 0.0018, 0.03}));
 
 TEST(AirDragInput, IsChecked) {
-  for (const char* words : {"scale 0 diameter 0.0018 density 1375", "scale 1 diameter -1 density 1375", "scale 1 diameter 0.0018",
-                            "scale 1 size 0.0018 density 1375"}) {
+  for (const char* words : {"scale 0 diameter 0.0018 density 1375", "scale 1 diameter -1 density 1375",
+                            "scale 1 diameter 0.0018", "scale 1 size 0.0018 density 1375"}) {
     Liggghts run;
     run.script = head(run, {Sphere()}, {Material()}, 0.05) + "fix drag all vielto/drag " + words + "\n";
     const Outcome outcome = run.start();

@@ -104,9 +104,9 @@ class Liggghts {
   Outcome shell(const std::string& line) {
     // Open MPI's session folder of a single process is shared by all of them: one that ends removes it from under
     // one that starts. Each test has its own.
-    const int code = std::system(fmt::format("export OMPI_MCA_orte_tmpdir_base='{1}'; ( {0} ) > '{1}/out.txt' 2>&1", line,
-                                             folder.string())
-                                     .c_str());
+    const int code = std::system(
+        fmt::format("export OMPI_MCA_orte_tmpdir_base='{1}'; ( {0} ) > '{1}/out.txt' 2>&1", line, folder.string())
+            .c_str());
     Outcome outcome;
     outcome.status = WIFEXITED(code) ? WEXITSTATUS(code) : 128 + WTERMSIG(code);
     outcome.text = read("out.txt");
@@ -329,7 +329,8 @@ inline double difference(const Table& a, const Table& b, std::size_t first, std:
 }
 
 // Demands that a run ended with one line ERROR that holds all of `words`, and left no finished run folder.
-inline void expect_refusal(const std::filesystem::path& run, const Outcome& outcome, const std::vector<std::string>& words) {
+inline void expect_refusal(const std::filesystem::path& run, const Outcome& outcome,
+                           const std::vector<std::string>& words) {
   EXPECT_NE(outcome.status, 0) << outcome.text;
   EXPECT_FALSE(std::filesystem::exists(run));
   std::istringstream in(outcome.text);
@@ -337,7 +338,8 @@ inline void expect_refusal(const std::filesystem::path& run, const Outcome& outc
   for (std::string line; std::getline(in, line);)
     if (line.rfind("ERROR", 0) == 0) errors.push_back(line);
   ASSERT_EQ(errors.size(), 1u) << outcome.text;
-  for (const std::string& word : words) EXPECT_NE(errors[0].find(word), std::string::npos) << word << " in: " << errors[0];
+  for (const std::string& word : words)
+    EXPECT_NE(errors[0].find(word), std::string::npos) << word << " in: " << errors[0];
 }
 
 }  // namespace vielto_test

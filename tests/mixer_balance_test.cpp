@@ -22,7 +22,8 @@ class MixerBalance : public testing::TestWithParam<const char*> {};
    within its uncertainty, here from means of 15 rows. */
 TEST_P(MixerBalance, ShaftWorkIsDissipatedAndTorquesAddUpToNothing) {
   Mixer mixer;
-  mixer.must("run", four, fmt::format("-var law {} -var turns 1 -var energyBalance on -var dtFraction 0.025", GetParam()));
+  mixer.must("run", four,
+             fmt::format("-var law {} -var turns 1 -var energyBalance on -var dtFraction 0.025", GetParam()));
   const Table rows = mixer.csv("run/torque.csv");
   ASSERT_EQ(rows.rows.size(), 360u);
   const auto change = [&rows](const std::string& column) { return rows.at(last, column) - rows.at(first, column); };
@@ -59,4 +60,5 @@ TEST_P(MixerBalance, ShaftWorkIsDissipatedAndTorquesAddUpToNothing) {
   EXPECT_GT(std::fabs(gravity), 4 * u);  // the bed leans, and would be missed
 }
 
-INSTANTIATE_TEST_SUITE_P(Laws, MixerBalance, testing::Values("vielto", "cohfrict"), [](const auto& tested) { return std::string(tested.param); });
+INSTANTIATE_TEST_SUITE_P(Laws, MixerBalance, testing::Values("vielto", "cohfrict"),
+                         [](const auto& tested) { return std::string(tested.param); });

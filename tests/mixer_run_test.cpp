@@ -88,17 +88,20 @@ TEST(MixerFilling, HasTheMassAskedForAndTheSizesOfTheNormalDistribution) {
 // The mixer's case, to be changed, in the folder of the test.
 void copy_case(const Mixer& mixer) {
   for (const char* part : {"mixer", "laws"}) fs::copy(fs::path(VIELTO_SOURCE_DIR "/cases") / part, mixer.folder / part);
-  for (const char* file : {"law.par", "law.in", "drag.in"}) fs::copy(fs::path(VIELTO_SOURCE_DIR "/cases") / file, mixer.folder);
+  for (const char* file : {"law.par", "law.in", "drag.in"})
+    fs::copy(fs::path(VIELTO_SOURCE_DIR "/cases") / file, mixer.folder);
 }
 
 // Runs the changed case to the run folder `run` beside it.
 Outcome run_case(Mixer& mixer, const std::string& script, const std::string& more) {
   mixer.write("mixer/in.mixer", script);
-  return mixer.shell(fmt::format("cd '{}/mixer' && PATH='{}':$PATH {} -in in.mixer -var run ../run -var materials '{}/materials' {}",
-                                 mixer.folder.string(), VIELTO_BIN_DIR, Mixer::command(), VIELTO_SOURCE_DIR, more));
+  return mixer.shell(
+      fmt::format("cd '{}/mixer' && PATH='{}':$PATH {} -in in.mixer -var run ../run -var materials '{}/materials' {}",
+                  mixer.folder.string(), VIELTO_BIN_DIR, Mixer::command(), VIELTO_SOURCE_DIR, more));
 }
 
-// Our wall loop and LIGGGHTS', which stored contact forces ask for: faces, edges and corners of seven meshes, to the last digit.
+// Our wall loop and LIGGGHTS', which stored contact forces ask for: faces, edges and corners of seven meshes, to the
+// last digit.
 TEST(MixerWalls, OurLoopGivesTheNumbersOfLiggghts) {
   Mixer mixer;
   mixer.must("ours", four, "-var turns 0.3");
@@ -122,9 +125,9 @@ TEST(MixerFilling, ComesInWithoutTouchingRotorOrDrum) {
   const std::string script = mixer.read("mixer/in.mixer");
   const std::size_t first = script.find("\nrun 1\n");
   ASSERT_NE(first, std::string::npos);
-  const Outcome outcome =
-      run_case(mixer, script.substr(0, first) + "\nrun 1\nwrite_dump all custom/vtk ../in.vtk id type x y z vx vy vz radius\n",
-               std::string("-var fill 0.25 ") + four);
+  const Outcome outcome = run_case(
+      mixer, script.substr(0, first) + "\nrun 1\nwrite_dump all custom/vtk ../in.vtk id type x y z vx vy vz radius\n",
+      std::string("-var fill 0.25 ") + four);
   ASSERT_EQ(outcome.status, 0) << outcome.text;
   const auto grains = read_vtk(mixer.folder / "in.vtk");
   vtkDataArray* radius = grains->GetPointData()->GetArray("radius");
@@ -289,7 +292,8 @@ TEST(MixerRun, FolderStatesParametersAndInputs) {
   EXPECT_EQ(run["parameters"]["wall_youngsModulus"], "2e5");
   EXPECT_EQ(run["parameters"]["wall_frictionAngle"], "25");
   EXPECT_EQ(run["parameters"]["seed"], "1");
-  for (const char* file : {"in.mixer", "mixer.par", "law.par", "law.in", "vielto.in", "materials.in", "hulled_millet.par", "steel.par"})
+  for (const char* file :
+       {"in.mixer", "mixer.par", "law.par", "law.in", "vielto.in", "materials.in", "hulled_millet.par", "steel.par"})
     EXPECT_EQ(run["hashes"][file].get<std::string>().size(), 64u) << file;
   EXPECT_NE(run["command"].get<std::string>().find("-in in.mixer"), std::string::npos);
   EXPECT_EQ(run["versions"].size(), 2u);

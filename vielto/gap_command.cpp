@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// vielto gap {isolability, diagnose, next, confirm, discrepancy, plan, collect}: where the simulation departs from a measurement, why,
-// how far.
+// vielto gap {isolability, diagnose, next, confirm, discrepancy, plan, collect}: where the simulation departs from a
+// measurement, why, how far.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -268,9 +268,9 @@ void run_discrepancy(const GapOptions& o) {
 }
 
 LibraryPlan library_plan(const GapOptions& o) {
-  const InputFiles files = InputFiles{fs::path(o.table).parent_path().string(), o.files.effects, o.files.settings}.completed();
-  const std::string rigs =
-      o.rigs.empty() ? (fs::path(files.settings).parent_path() / "rigs.toml").string() : o.rigs;
+  const InputFiles files =
+      InputFiles{fs::path(o.table).parent_path().string(), o.files.effects, o.files.settings}.completed();
+  const std::string rigs = o.rigs.empty() ? (fs::path(files.settings).parent_path() / "rigs.toml").string() : o.rigs;
   return LibraryPlan::read(o.table, read_effects(files.effects, Settings::read(files.settings)), rigs, o.root);
 }
 
@@ -366,15 +366,16 @@ void add_gap_command(CLI::App& app) {
 
   const auto planned = [&](CLI::App* c) {
     c->add_option("PLAN", o->table, "plan of the library, such as gap/library/plan.toml")->required();
-    c->add_option("--effects", o->files.effects, "folder of effect files; without it effects/ beside the plan's folder");
+    c->add_option("--effects", o->files.effects,
+                  "folder of effect files; without it effects/ beside the plan's folder");
     c->add_option("--settings", o->files.settings, "without it diagnosis.toml beside the plan's folder");
     c->add_option("--rigs", o->rigs, "how a test becomes a run; without it rigs.toml beside the settings");
     c->add_option("--root", o->root, "folder that holds cases/ and materials/")->capture_default_str();
   };
-  CLI::App* plan_command = gap->add_subcommand(
-      "plan",
-      "the runs of a response library as a study for scripts/campaign\n"
-      "Example: vielto gap plan gap/library/plan.toml --out workflow/studies/library.csv");
+  CLI::App* plan_command =
+      gap->add_subcommand("plan",
+                          "the runs of a response library as a study for scripts/campaign\n"
+                          "Example: vielto gap plan gap/library/plan.toml --out workflow/studies/library.csv");
   planned(plan_command);
   plan_command->add_option("--out", o->out, "study table to write")->required();
   plan_command->callback([o] { run_plan_command(*o); });
