@@ -20,8 +20,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::set<std::string> kOwnFiles = {"design.csv", "posterior.csv", "discrepancy.csv", "inputs.csv",
-                                         "covariance.csv"};
+const std::set<std::string> kOwnFiles = {"design.csv", "posterior.csv", "discrepancy.csv",
+                                         "inputs.csv", "sources.csv",   "covariance.csv"};
 
 // A CSV file whose header begins with `first` columns; calls use(line, fields) for each row, returns the other columns.
 template <class Use>

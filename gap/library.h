@@ -9,7 +9,8 @@
 //                     values show what recalibration can do. Runs with an effect are made at the baseline's own.
 //   *.csv             observation tables, their rows under the tests of the design (any number of files; u and role are
 //   not used) posterior.csv     weight,PARAMETER...   the calibrated family (optional) discrepancy.csv   what other
-//   contact laws do differently (discrepancy.h; optional) inputs.csv        file,sha256   what the runs were made from,
+//   contact laws do differently (discrepancy.h; optional) sources.csv       test,source,torque_Nm (sources.h; optional)
+//   inputs.csv        file,sha256   what the runs were made from,
 //   paths from the folder (optional): if one has changed, the
 //                     library is stale
 //

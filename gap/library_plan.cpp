@@ -275,6 +275,7 @@ Collected collect_library(const LibraryPlan& plan, const std::string& results, c
   std::string design = "test,effect,strength,seed,run_hash";
   for (const std::string& name : plan.parameter_names) design += "," + name;
   design += "\n";
+  std::string sources = "test,source,torque_Nm\n";
   std::vector<Observation> rows;
   Collected collected;
   for (const LibraryRun& run : plan.runs) {
@@ -297,6 +298,12 @@ Collected collect_library(const LibraryPlan& plan, const std::string& results, c
       row.test = run.name;
       rows.push_back(row);
     }
+    const std::string power = (fs::path(results) / "runs" / run.name / "post" / "power.json").string();
+    if (fs::exists(power)) {
+      const json parts = read_json(power)["parts"];
+      for (const auto& [part, torque] : parts.items())
+        sources += fmt::format("{},{},{:.6g}\n", run.name, part, torque["torque_Nm"].get<double>());
+    }
     ++collected.runs;
   }
   if (collected.runs == 0)
@@ -307,6 +314,7 @@ Collected collect_library(const LibraryPlan& plan, const std::string& results, c
   const auto path = [&](const char* name) { return (fs::path(folder) / name).string(); };
   write_whole_file(path("design.csv"), design);
   write_observations(path("observations.csv"), rows);
+  write_whole_file(path("sources.csv"), sources);
   if (!plan.bench.empty()) write_observations(path("bench.csv"), plan.bench);
   if (!plan.family_file.empty()) {
     fs::copy_file(plan.family_file, path("posterior.csv"), fs::copy_options::overwrite_existing);

@@ -61,7 +61,7 @@ struct Collected {
   std::vector<std::string> missing;  // runs of the plan without a result
 };
 
-// Writes design.csv, observations.csv, bench.csv, posterior.csv and inputs.csv to `folder` from the campaign's folder
+// Writes design.csv, observations.csv, sources.csv (sources.h), bench.csv, posterior.csv and inputs.csv to `folder` from the campaign's folder
 // `results` (runs/NAME/run.json, post/NAME.csv). Errors: BadInput also for a run that was made from other files than
 // those that are there now.
 Collected collect_library(const LibraryPlan& plan, const std::string& results, const std::string& folder);

@@ -50,6 +50,29 @@ std::string map_of_the_gap(const json& where) {
          rows + "</table>\n<p>Red: a gap, at a false-discovery rate of 5 %. Grey: not shown.</p>\n";
 }
 
+// Where in the machine the simulated torque arises, and where the effects change it.
+std::string sources_table(const json& sources) {
+  std::string rows;
+  for (const json& s : sources) {
+    std::string changes;
+    for (const json& e : s["effects"])
+      changes += fmt::format("{}{} at {:.3g}: {:+.0f} &plusmn; {:.0f} %", changes.empty() ? "" : "; ",
+                             escaped(e["name"].get<std::string>()), e["strength"].get<double>(),
+                             100 * e["change"].get<double>(), 100 * e["u"].get<double>());
+    rows += fmt::format(
+        "<tr><td class=n>{:g}</td><td class=n>{:g}</td><td>{}</td><td>{}</td><td class=n>{:.0f} "
+        "%</td><td>{}</td></tr>\n",
+        s["speed"].is_null() ? 0.0 : s["speed"].get<double>(), s["fill"].is_null() ? 0.0 : s["fill"].get<double>(),
+        escaped(s["source"].get<std::string>()), bar(std::fabs(s["share"].get<double>()), "#8a6fbf"),
+        100 * s["share"].get<double>(), changes);
+  }
+  return "<p>Parts of the simulated rotor torque; drum: what its wall takes back, the rest is the weight of the "
+         "grain.</p>\n"
+         "<table><tr><th>speed</th><th>fill</th><th>source</th><th></th><th>share</th><th>change with the effect, of "
+         "the whole</th></tr>\n" +
+         rows + "</table>\n";
+}
+
 std::string ranking(const json& probabilities) {
   std::vector<std::pair<double, std::string>> models;
   for (const auto& [name, p] : probabilities.items()) models.emplace_back(p.get<double>(), name);
@@ -96,6 +119,8 @@ std::string diagnosis_page(const json& d, const std::string& title) {
                       100 * d["absorbable_by_recalibration"].get<double>(),
                       100 - 100 * d["absorbable_by_recalibration"].get<double>());
   page += "<h2>Where</h2>\n" + map_of_the_gap(d["where"]);
+  if (d.contains("sources") && !d["sources"].empty())
+    page += "<h2>Where in the machine</h2>\n" + sources_table(d["sources"]);
   page += "<h2>Which effect</h2>\n" + ranking(d["probabilities"]);
   page += "<h2>How far the gap closes</h2>\n";
   if (!d["shrink"].is_null()) page += before_and_after(d["shrink"], "simulated again");

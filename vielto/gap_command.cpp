@@ -22,6 +22,7 @@
 #include "next_question.h"
 #include "page.h"
 #include "sha256.h"
+#include "sources.h"
 
 namespace vielto {
 namespace {
@@ -201,8 +202,9 @@ json provenance_of(const GapOptions& o, const Question& q) {
   return p;
 }
 
-void write_answer(const GapOptions& o, const Diagnosis& d, const json& provenance) {
-  const json j = diagnosis_json(d, provenance);
+void write_answer(const GapOptions& o, const Question& q, const Diagnosis& d, const json& provenance) {
+  json j = diagnosis_json(d, provenance);
+  j["sources"] = sources_json(q.inputs.library, d.verdict == "ambiguous" ? d.group : d.named);
   fs::create_directories(o.out);
   const std::string page = diagnosis_page(j, title_of(o));
   write_json(fs::path(o.out) / "diagnosis.json", j);
@@ -214,7 +216,7 @@ void write_answer(const GapOptions& o, const Diagnosis& d, const json& provenanc
 void run_diagnose(const GapOptions& o) {
   const Question q(o);
   const Isolability i = isolability(q.fit, q.inputs.settings);
-  write_answer(o, diagnosis_of(o, q, i), provenance_of(o, q));
+  write_answer(o, q, diagnosis_of(o, q, i), provenance_of(o, q));
 }
 
 void run_confirm(const GapOptions& o) {
@@ -225,7 +227,7 @@ void run_confirm(const GapOptions& o) {
   Diagnosis d = diagnosis_of(o, q, i);
   json provenance = provenance_of(o, q);
   if (d.verdict == "no_gap") {
-    write_answer(o, d, provenance);
+    write_answer(o, q, d, provenance);
     return;
   }
   const Plan plan = plan_confirmation(q.inputs, q.model, d, i, o.rig_file(), o.root,
@@ -237,10 +239,10 @@ void run_confirm(const GapOptions& o) {
     return;
   }
   // The prediction is on record before the runs begin.
-  write_answer(o, d, provenance);
+  write_answer(o, q, d, provenance);
   run_plan(plan, o.jobs);
   d.shrink = measured_shrink(plan, q.inputs, q.model);
-  write_answer(o, d, provenance);
+  write_answer(o, q, d, provenance);
 }
 
 void run_next(const GapOptions& o) {
