@@ -50,12 +50,13 @@ int whole_of(const TomlTable& t, const std::string& key, int low, int high) {
   return static_cast<int>(value);
 }
 
-// Numbers of conditions, from 1.
-std::vector<std::size_t> places_of(const TomlTable& t, const std::string& key, std::size_t conditions) {
+// Numbers of conditions or of members, from 1, as places from 0.
+std::vector<std::size_t> places_of(const TomlTable& t, const std::string& key, std::size_t count,
+                                   const char* what = "condition") {
   std::vector<std::size_t> result;
   for (const double x : numbers_of(t, key)) {
-    if (x < 1 || x > static_cast<double>(conditions) || x != std::floor(x))
-      t.refuse(key, fmt::format("{} is no condition", x), fmt::format("write numbers from 1 to {}", conditions));
+    if (x < 1 || x > static_cast<double>(count) || x != std::floor(x))
+      t.refuse(key, fmt::format("{} is no {}", x, what), fmt::format("write numbers from 1 to {}", count));
     result.push_back(static_cast<std::size_t>(x) - 1);
   }
   return result;
@@ -108,7 +109,7 @@ const Effect& effect_of(const TomlTable& t, const std::vector<Effect>& effects) 
 }
 
 void add_rig(LibraryPlan& plan, const TomlTable& t, const std::vector<Effect>& effects, const TomlTable& rigs_file,
-             const std::string& root, int seeds, const FamilyFile& family, int members) {
+             const std::string& root, int seeds, const FamilyFile& family, const std::vector<std::size_t>& members) {
   t.only({"name", "settings", "conditions", "members_at", "effect"});
   const Rig rig = Rig::read(rigs_file, t.text("name"), root);
   plan.rigs.push_back(rig);
@@ -155,16 +156,16 @@ void add_rig(LibraryPlan& plan, const TomlTable& t, const std::vector<Effect>& e
   };
   for (int s = 0; s < seeds; ++s)
     for (std::size_t c = 0; c < conditions.size(); ++c) add(c, "none", s + 1, {"", "", "none", 0, 0, own, {}});
-  if (members > 0 && t.has("members_at"))
-    for (int m = 0; m < members; ++m) {
-      const std::size_t at = static_cast<std::size_t>((m + 0.5) * static_cast<double>(family.members.size()) / members);
+  if (t.has("members_at"))
+    for (std::size_t m = 0; m < members.size(); ++m) {
+      const std::size_t at = members[m];
       LibraryRun run;
       for (std::size_t k = 0; k < family.names.size(); ++k) {
         run.parameters[family.names[k]] = family.members[at][k];
         run.settings[family.names[k]] = number_text(family.members[at][k]);
       }
       for (const std::size_t c : places_of(t, "members_at", conditions.size()))
-        add(c, fmt::format("member{}", m + 1), 101 + m, run);
+        add(c, fmt::format("member{}", m + 1), 101 + static_cast<int>(m), run);
     }
   for (const TomlTable& e : tables_of(t, "effect")) {
     e.only({"name", "strengths", "at", "seeds"});
@@ -203,13 +204,13 @@ LibraryPlan LibraryPlan::read(const std::string& path, const std::vector<Effect>
   LibraryPlan plan;
   const int seeds = whole_of(file, "seeds", 1, 100);
   FamilyFile family;
-  int members = 0;
+  std::vector<std::size_t> members;  // rows of the file, from 0
   if (file.has("family")) {
     const TomlTable t = file.table("family");
     t.only({"file", "members"});
     plan.family_file = (fs::path(path).parent_path() / t.text("file")).lexically_normal().string();
-    members = whole_of(t, "members", 1, 200);
     family = read_family_file(plan.family_file);
+    members = places_of(t, "members", family.members.size(), "member of the family");
     plan.parameter_names = family.names;
   }
   const TomlTable rigs = TomlTable::read(rigs_file);

@@ -5,7 +5,7 @@
 //   seeds = 6                                  of the baseline under every condition
 //   [family]                                   optional
 //   file = "PATH"                              weight,PARAMETER...; the library's posterior
-//   members = 8                                so many of it are run, evenly spaced along the file
+//   members = [9, 25]                          rows of it that are run, from 1
 //   [[rig]]
 //   name = "mixer"                             of gap/rigs.toml
 //   settings = {grainDiameter = "0.012"}       -var of all its runs

@@ -24,7 +24,7 @@ using nlohmann::json;
 const char* const kPlan = R"(seeds = 6
 [family]
 file = "../family.csv"
-members = 2
+members = [2, 4]
 [[rig]]
 name = "mixer"
 settings = {grainDiameter = "0.012"}
@@ -215,6 +215,7 @@ TEST_F(GapLibraryPlan, RefusesAPlanThatCannotBeRun) {
   refused("at = [1, 2]", "at = [3]", "3 is no condition");
   refused("grainDiameter = ", "grainDiametre = ", "is no parameter of in.mixer");
   refused("speed = 0.5", "tilt = 0.5", "is no condition of this rig");
+  refused("members = [2, 4]", "members = [5]", "5 is no member of the family");
   refused("wall_angle", "wall_angel", "is no bench observable");
   refused("../family.csv", "nothing.csv", "cannot be read");
 }

@@ -232,8 +232,13 @@ void run_confirm(const GapOptions& o) {
   }
   const Plan plan = plan_confirmation(q.inputs, q.model, d, i, o.rig_file(), o.root,
                                       o.runs.empty() ? (fs::path(o.out) / "runs").string() : o.runs, o.seeds, o.vars);
-  for (const PlannedRun& run : plan.runs)
-    provenance["commands"].push_back(fmt::format("{}", fmt::join(run.command, " ")));
+  for (const PlannedRun& run : plan.runs) {
+    // seen from the rig's folder, so that the answer speaks of no machine
+    std::vector<std::string> words = run.command;
+    const std::string place = fs::relative(run.run, run.folder).string();
+    std::replace(words.begin(), words.end(), run.run, place);
+    provenance["commands"].push_back(fmt::format("{}", fmt::join(words, " ")));
+  }
   if (!o.run) {
     for (const PlannedRun& run : plan.runs) fmt::print("{}\n", command_line(run));
     return;
