@@ -119,8 +119,6 @@ std::string diagnosis_page(const json& d, const std::string& title) {
                       100 * d["absorbable_by_recalibration"].get<double>(),
                       100 - 100 * d["absorbable_by_recalibration"].get<double>());
   page += "<h2>Where</h2>\n" + map_of_the_gap(d["where"]);
-  if (d.contains("sources") && !d["sources"].empty())
-    page += "<h2>Where in the machine</h2>\n" + sources_table(d["sources"]);
   page += "<h2>Which effect</h2>\n" + ranking(d["probabilities"]);
   page += "<h2>How far the gap closes</h2>\n";
   if (!d["shrink"].is_null()) page += before_and_after(d["shrink"], "simulated again");
@@ -137,6 +135,8 @@ std::string diagnosis_page(const json& d, const std::string& title) {
         escaped(d["next_test"]["name"].get<std::string>()), escaped(d["next_test"]["how"].get<std::string>()),
         escaped(d["next_test"]["separates"].get<std::string>()), d["next_test"]["separation_now"].get<double>(),
         d["next_test"]["separation"].get<double>(), d["next_test"]["hours"].get<double>());
+  if (d.contains("sources") && !d["sources"].empty())
+    page += "<h2>Where in the machine</h2>\n" + sources_table(d["sources"]);
   page += "<h2>How firm</h2>\n<table><tr><th>if</th><th>verdict</th><th>best rival</th><th>its share</th></tr>\n";
   for (const json& s : d["sensitivity"])
     page += fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td><td class=n>{:.0f} %</td></tr>\n",

@@ -204,7 +204,10 @@ json provenance_of(const GapOptions& o, const Question& q) {
 
 void write_answer(const GapOptions& o, const Question& q, const Diagnosis& d, const json& provenance) {
   json j = diagnosis_json(d, provenance);
-  j["sources"] = sources_json(q.inputs.library, d.verdict == "ambiguous" ? d.group : d.named);
+  // a long group would bury the page: its two likeliest members
+  std::vector<std::string> shown = d.verdict == "ambiguous" ? d.group : d.named;
+  shown.resize(std::min<std::size_t>(shown.size(), 2));
+  j["sources"] = sources_json(q.inputs.library, shown);
   fs::create_directories(o.out);
   const std::string page = diagnosis_page(j, title_of(o));
   write_json(fs::path(o.out) / "diagnosis.json", j);
