@@ -87,6 +87,7 @@ Plan plan_confirmation(const Inputs& inputs, const TableModel& model, const Diag
         run.apparatus = row.apparatus;
         run.seed = seed;
         run.folder = rig.folder;
+        run.resumes = rig.known.count("resume") > 0;
         run.run = (fs::absolute(runs) / fmt::format("{}-{}-s{}", row.test, v.name, seed)).lexically_normal().string();
         run.command = {"liggghts", "-in", rig.script};
         const auto var = [&](const std::string& name, const std::string& value) {
@@ -144,6 +145,8 @@ void run_plan(const Plan& plan, int jobs) {
     PlannedRun now = run;
     if (fs::exists(fs::path(run.run) / "run.json"))
       now.command = {"true"};  // complete, only its rows are missing
+    else if (fs::exists(run.run + ".partial") && !run.resumes)
+      fs::remove_all(run.run + ".partial");
     else if (fs::exists(run.run + ".partial"))
       now.command.insert(now.command.end(), {"-var", "resume", "yes"});
     missing.emplace_back(command_line(now), run.run + ".out");

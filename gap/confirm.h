@@ -25,8 +25,9 @@ struct PlannedRun {
   std::string folder;  // where it is started
   std::string run;     // run folder
   std::vector<std::string> command;
-  std::string post;  // command line after it; empty: none
-  double share = 1;  // of a switched effect: part of the way from the recalibrated run to this one
+  std::string post;      // command line after it; empty: none
+  bool resumes = false;  // the rig takes up a run that was broken off; others begin anew
+  double share = 1;      // of a switched effect: part of the way from the recalibrated run to this one
 };
 
 struct Variant {

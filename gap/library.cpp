@@ -10,8 +10,8 @@
 #include <set>
 
 #include "bad_input.h"
+#include "columns.h"
 #include "condition.h"
-#include "csv.h"
 #include "reduced_table.h"
 #include "sha256.h"
 
@@ -23,38 +23,6 @@ namespace fs = std::filesystem;
 const std::set<std::string> kOwnFiles = {"design.csv", "posterior.csv", "discrepancy.csv",
                                          "inputs.csv", "sources.csv",   "covariance.csv"};
 
-// A CSV file whose header begins with `first` columns; calls use(line, fields) for each row, returns the other columns.
-template <class Use>
-std::vector<std::string> read_columns(const std::string& path, const std::vector<std::string>& first, Use use) {
-  std::ifstream in(path, std::ios::binary);
-  if (!in) throw BadInput(path, 0, "cannot be read", "name an existing file");
-  std::string line;
-  std::getline(in, line);
-  std::vector<std::string_view> fields;
-  split_fields(line, fields);
-  const std::vector<std::string> header(fields.begin(), fields.end());
-  if (header.size() < first.size() || !std::equal(first.begin(), first.end(), header.begin()))
-    throw BadInput(path, 1, "has another header", fmt::format("begin it with '{}'", fmt::join(first, ",")));
-  int number = 1;
-  while (std::getline(in, line)) {
-    split_fields(line, fields);
-    ++number;
-    if (fields.size() != header.size())
-      throw BadInput(path, number, fmt::format("has {} fields instead of {}", fields.size(), header.size()),
-                     "write one value a column, without blank lines");
-    use(number, fields);
-  }
-  if (number == 1) throw BadInput(path, 0, "holds no row below its header", "add at least one row");
-  return {header.begin() + static_cast<std::ptrdiff_t>(first.size()), header.end()};
-}
-
-double number(const std::string& path, int line, const std::string& column, std::string_view field) {
-  const auto value = finite_number(field);
-  if (!value)
-    throw BadInput(path, line, column, fmt::format("'{}' is not a finite number", field), "write a decimal number");
-  return *value;
-}
-
 void read_design(Library& library, const std::vector<Effect>& effects) {
   const std::string path = (fs::path(library.folder) / "design.csv").string();
   std::map<std::string, int> tests, hashes;
@@ -65,8 +33,8 @@ void read_design(Library& library, const std::vector<Effect>& effects) {
         run.line = line;
         run.test = f[0];
         run.effect = f[1];
-        run.strength = number(path, line, "strength", f[2]);
-        const double seed = number(path, line, "seed", f[3]);
+        run.strength = column_number(path, line, "strength", f[2]);
+        const double seed = column_number(path, line, "seed", f[3]);
         run.seed = static_cast<int>(seed);
         run.run_hash = f[4];
         if (run.seed < 1 || run.seed != seed)
@@ -97,7 +65,7 @@ void read_design(Library& library, const std::vector<Effect>& effects) {
         }
         run.parameters.resize(static_cast<Eigen::Index>(f.size()) - 5);
         for (std::size_t k = 5; k < f.size(); ++k)
-          run.parameters[static_cast<Eigen::Index>(k) - 5] = number(path, line, fmt::format("{}", k + 1), f[k]);
+          run.parameters[static_cast<Eigen::Index>(k) - 5] = column_number(path, line, fmt::format("{}", k + 1), f[k]);
         library.runs.push_back(run);
       });
   library.files.push_back(path);
@@ -179,7 +147,7 @@ void read_family(Library& library) {
   std::vector<std::vector<double>> rows;
   const auto names = read_columns(path, {"weight"}, [&](int line, const std::vector<std::string_view>& f) {
     rows.emplace_back();
-    for (const std::string_view field : f) rows.back().push_back(number(path, line, "", field));
+    for (const std::string_view field : f) rows.back().push_back(column_number(path, line, "", field));
     if (rows.back()[0] < 0) throw BadInput(path, line, "weight", "is negative", "state weights of 0 or more");
   });
   if (names != library.parameter_names)

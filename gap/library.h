@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Purpose: the response library, simulated observations over a design of tests, effects, strengths and seeds.
 //
-// A folder with
-//   design.csv        test,effect,strength,seed,run_hash,PARAMETER...   one row a run. `test`: its name in the tables,
-//   one
-//                     for each run; `effect` none and strength 0: the baseline; PARAMETER: the calibrated parameters of
-//                     the run. The baseline's own parameters are those of most of its runs; baseline runs at other
-//                     values show what recalibration can do. Runs with an effect are made at the baseline's own.
-//   *.csv             observation tables, their rows under the tests of the design (any number of files; u and role are
-//   not used) posterior.csv     weight,PARAMETER...   the calibrated family (optional) discrepancy.csv   what other
-//   contact laws do differently (discrepancy.h; optional) sources.csv       test,source,torque_Nm (sources.h; optional)
-//   inputs.csv        file,sha256   what the runs were made from,
-//   paths from the folder (optional): if one has changed, the
-//                     library is stale
+// A folder with these files (all but design.csv and the tables are optional):
+//
+// - design.csv: test,effect,strength,seed,run_hash,PARAMETER... One row a run; `test` is its name in the tables, one for
+//   each run; `effect` none and strength 0: the baseline; PARAMETER: the calibrated parameters of the run. The
+//   baseline's own are those of most of its runs; baseline runs at other values show what recalibration can do. Runs
+//   with an effect are made at the baseline's own.
+// - other *.csv: observation tables, their rows under the tests of the design; u and role are not used
+// - posterior.csv: weight,PARAMETER... The calibrated family
+// - discrepancy.csv: what other contact laws do differently (discrepancy.h)
+// - sources.csv: test,source,torque_Nm (sources.h)
+// - inputs.csv: file,sha256. What the runs were made from, paths from the folder: if one has changed, the library is
+//   stale
 //
 // Errors: BadInput with file and line. At least 6 seeds of the baseline under every condition (but for `bench`, which
 // is not simulated); no run twice (run_hash); strengths inside the effect's prior range; nothing stale.

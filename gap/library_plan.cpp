@@ -11,8 +11,8 @@
 #include <set>
 
 #include "bad_input.h"
+#include "columns.h"
 #include "condition.h"
-#include "csv.h"
 #include "sha256.h"
 
 namespace vielto::gap {
@@ -77,27 +77,12 @@ struct FamilyFile {
 };
 
 FamilyFile read_family_file(const std::string& path) {
-  std::ifstream in(path);
-  std::string line;
-  std::vector<std::string_view> fields;
-  if (!std::getline(in, line)) throw BadInput(path, 0, "cannot be read", "make it with workflow/calibrate fit");
-  split_fields(line, fields);
   FamilyFile family;
-  if (fields.size() < 2 || fields[0] != "weight")
-    throw BadInput(path, 1, "has another header", "begin it with weight, then one column a parameter");
-  family.names.assign(fields.begin() + 1, fields.end());
-  for (int number = 2; std::getline(in, line); ++number) {
-    split_fields(line, fields);
+  family.names = read_columns(path, {"weight"}, [&](int line, const std::vector<std::string_view>& f) {
     family.members.emplace_back();
-    for (std::size_t k = 1; k < fields.size(); ++k) {
-      const auto value = finite_number(fields[k]);
-      if (!value) throw BadInput(path, number, fmt::format("'{}' is no number", fields[k]), "write decimal numbers");
-      family.members.back().push_back(*value);
-    }
-    if (family.members.back().size() != family.names.size())
-      throw BadInput(path, number, "has not as many fields as the header", "write one value a column");
-  }
-  if (family.members.empty()) throw BadInput(path, 0, "has no member", "make it with workflow/calibrate fit");
+    for (std::size_t k = 1; k < f.size(); ++k)
+      family.members.back().push_back(column_number(path, line, fmt::format("{}", k + 1), f[k]));
+  });
   return family;
 }
 

@@ -89,13 +89,16 @@ std::string before_and_after(const json& shrink, const std::string& how) {
   const double full = std::max({shrink["before"].get<double>(), shrink["recalibrated"].get<double>(),
                                 shrink["after"].get<double>(), shrink["placebo"].get<double>(), 1e-9});
   std::string rows;
-  const std::string placebo = "placebo (" + shrink.value("placebo_effect", std::string("none")) + ")";
+  // without an effect outside the group there is no placebo to show
+  const std::string placebo = shrink.value("placebo_effect", std::string());
   for (const auto& [key, name] : {std::pair<const char*, std::string>{"before", "baseline"},
                                   {"recalibrated", "recalibrated only"},
                                   {"after", "with the effect"},
-                                  {"placebo", placebo}})
+                                  {"placebo", "placebo (" + placebo + ")"}}) {
+    if (key == std::string("placebo") && placebo.empty()) continue;
     rows += fmt::format("<tr><td>{}</td><td>{}</td><td class=n>{:.1f} %</td></tr>\n", escaped(name),
                         bar(shrink[key].get<double>() / full, "#27866a"), 100 * shrink[key].get<double>());
+  }
   return fmt::format(
       "<p>Root-mean-square gap on {} check tests, {}, measurement noise taken out. Closed: {:.0f} % (90 %: {:.0f} to "
       "{:.0f} %).</p>\n<table>{}</table>\n",

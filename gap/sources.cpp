@@ -6,12 +6,11 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <map>
 
 #include "bad_input.h"
+#include "columns.h"
 #include "condition.h"
-#include "csv.h"
 
 namespace vielto::gap {
 namespace {
@@ -32,8 +31,7 @@ nlohmann::ordered_json sources_json(const Library& library, const std::vector<st
   using json = nlohmann::ordered_json;
   json result = json::array();
   const std::string path = (std::filesystem::path(library.folder) / "sources.csv").string();
-  std::ifstream in(path);
-  if (!in) return result;
+  if (!std::filesystem::exists(path)) return result;
   std::map<std::string, const Observation*> row_of;
   std::map<std::string, const Run*> run_of;
   for (const LibraryValue& v : library.values)
@@ -49,14 +47,8 @@ nlohmann::ordered_json sources_json(const Library& library, const std::vector<st
   };
   std::map<std::string, Place> places;
   std::map<std::string, double> rotor_of_run;
-  std::string line;
-  std::vector<std::string_view> f;
-  std::getline(in, line);
-  for (int number = 2; std::getline(in, line); ++number) {
-    split_fields(line, f);
-    const auto torque = f.size() == 3 ? finite_number(f[2]) : std::nullopt;
-    if (!torque)
-      throw BadInput(path, number, "is not a test, a source and a torque", "make it with vielto gap collect");
+  read_columns(path, {"test", "source", "torque_Nm"}, [&](int number, const std::vector<std::string_view>& f) {
+    const double torque = column_number(path, number, "torque_Nm", f[2]);
     const std::string test(f[0]), source(f[1]);
     const auto row = row_of.find(test);
     if (row == row_of.end())
@@ -66,12 +58,12 @@ nlohmann::ordered_json sources_json(const Library& library, const std::vector<st
     place.row = row->second;
     const Run& run = *run_of.at(test);
     if (run.baseline) {
-      place.baseline[source].add(*torque);
-      if (source != "drum") rotor_of_run[test] += *torque;
+      place.baseline[source].add(torque);
+      if (source != "drum") rotor_of_run[test] += torque;
     } else if (run.effect != "none") {
-      place.effects[run.effect][run.strength][source].add(*torque);
+      place.effects[run.effect][run.strength][source].add(torque);
     }
-  }
+  });
   for (const auto& [test, torque] : rotor_of_run) places[conditions_text(*row_of.at(test))].rotor.add(torque);
 
   for (const auto& [name, place] : places) {

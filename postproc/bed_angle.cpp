@@ -41,13 +41,7 @@ Look read_look(const std::string& path) {
   h.provisional = keys.integer("provisional", 0) != 0;
   look.frames = keys.integer("frames", 1);
   look.turn = keys.number("turn", 0);
-  const Columns& c = file.columns();
-  const std::size_t x = c.at("x_m"), y = c.at("y_m"), z = c.at("z_m"), radius = c.at("radius_m");
-  for (std::vector<double> row; file.next_row(row);) {
-    if (!(row[radius] > 0)) throw BadInput(path, file.line(), "radius_m", "is not above 0", "run the case again");
-    look.grains.push_back({{row[x], row[y], row[z]}, row[radius]});
-  }
-  if (look.grains.empty()) throw BadInput(path, 0, "holds no grain", "run the case again");
+  look.grains = read_grains(file, path);
   return look;
 }
 

@@ -27,14 +27,7 @@ Heap read_heap(const std::string& path) {
   h.wall = keys.text("wall");
   h.provisional = keys.integer("provisional", 0) != 0;
 
-  const Columns& c = file.columns();
-  const std::size_t x = c.at("x_m"), y = c.at("y_m"), z = c.at("z_m"), radius = c.at("radius_m");
-  for (std::vector<double> row; file.next_row(row);) {
-    if (!(row[radius] > 0))
-      throw BadInput(path, file.line(), "radius_m", "is not above 0", "run the case again");
-    heap.grains.push_back({{row[x], row[y], row[z]}, row[radius]});
-  }
-  if (heap.grains.empty()) throw BadInput(path, 0, "holds no grain", "run the case again");
+  heap.grains = read_grains(file, path);
   return heap;
 }
 

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // `vielto gap` through its command line, on a toy library (gap_toy.h): answers, and one clear line for every bad input.
 #include <gtest/gtest.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "gap_folder.h"
 #include "gap_toy.h"
 
 namespace {
@@ -16,13 +15,8 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 using vielto::Observation;
-
-std::string content(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  std::ostringstream out;
-  out << in.rdbuf();
-  return out.str();
-}
+using vielto_test::content;
+using vielto_test::GapFolder;
 
 void replace_in(const fs::path& path, const std::string& from, const std::string& to) {
   std::string text = content(path);
@@ -31,16 +25,10 @@ void replace_in(const fs::path& path, const std::string& from, const std::string
   std::ofstream(path, std::ios::binary) << text.replace(at, from.size(), to);
 }
 
-class GapCommand : public testing::Test {
+class GapCommand : public GapFolder {
  protected:
   void SetUp() override {
-    const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = fs::temp_directory_path() / fmt::format("gap_command_{}_{}", info->name(), getpid());
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-    // The same layout as gap/: effects and settings beside the library.
-    for (const char* name : {"effects", "diagnosis.toml", "next_tests.toml", "rigs.toml"})
-      fs::copy(fs::path(VIELTO_SOURCE_DIR) / "gap" / name, folder_ / name, fs::copy_options::recursive);
+    GapFolder::SetUp();
     toy::write_library(folder_ / "library", toy::effects_with_runs(), 0, 7);
     toy::write_discrepancy(folder_ / "library");
     toy::State state;
@@ -49,27 +37,15 @@ class GapCommand : public testing::Test {
     rows_ = toy::measured(state, random);
     write(rows_);
   }
-  void TearDown() override { fs::remove_all(folder_); }
 
   void write(const std::vector<Observation>& rows) { vielto::write_observations((folder_ / "t.csv").string(), rows); }
-  int gap(const std::string& arguments) {
-    const std::string command =
-        "cd '" + folder_.string() + "' && '" VIELTO_BIN_DIR "/vielto' gap " + arguments + " > out.txt 2> err.txt";
-    const int status = std::system(command.c_str());
-    out_ = content(folder_ / "out.txt");
-    err_ = content(folder_ / "err.txt");
-    return WEXITSTATUS(status);
-  }
   int diagnose(const std::string& options = "") {
     return gap("diagnose t.csv --library library --draws 100 --out answer " + options);
   }
   // Exit 2, one line, nothing written.
   void expect_refusal(const std::string& part, const std::string& options = "") {
     EXPECT_EQ(diagnose(options), 2) << out_ << err_;
-    EXPECT_EQ(err_.rfind("vielto: ", 0), 0u) << err_;
-    EXPECT_NE(err_.find(part), std::string::npos) << "expected: " << part << "\ngot: " << err_;
-    EXPECT_NE(err_.find("; "), std::string::npos) << "no way to mend it: " << err_;
-    EXPECT_EQ(std::count(err_.begin(), err_.end(), '\n'), 1) << err_;
+    expect_one_line(part);
     EXPECT_FALSE(fs::exists(folder_ / "answer")) << "a half-written answer";
   }
   void expect_refusal_of_rows(const std::function<void(std::vector<Observation>&)>& change, const std::string& part) {
@@ -79,9 +55,7 @@ class GapCommand : public testing::Test {
     expect_refusal(part);
   }
 
-  fs::path folder_;
   std::vector<Observation> rows_;
-  std::string out_, err_;
 };
 
 TEST_F(GapCommand, DiagnosesAKnownEffectAndWritesTheProtocolsKeys) {
@@ -346,6 +320,39 @@ TEST_F(GapCommand, ConfirmPrintsTheCommandsOfEveryCheckTest) {
     with_effect += after;
   }
   EXPECT_EQ(with_effect, 3);
+}
+
+// An effect that starts from a baseline value starts from the one that --var states, and every -var is stated once:
+// LIGGGHTS takes the first of two.
+TEST_F(GapCommand, ConfirmTakesAnEffectFromTheStatedSetting) {
+  toy::State state;
+  state.effects["wall_friction"] = 10;
+  std::mt19937_64 random(6);
+  rows_ = toy::measured(state, random);
+  rows_.erase(std::remove_if(rows_.begin(), rows_.end(),
+                             [](const Observation& r) { return r.apparatus != "mixer" && r.role == "check"; }),
+              rows_.end());
+  write(rows_);
+  ASSERT_EQ(gap("confirm t.csv --library library --draws 100 --out answer --var wall_frictionAngle=40 "
+                "--root " VIELTO_SOURCE_DIR),
+            0)
+      << err_;
+  std::istringstream lines(out_);
+  int with_effect = 0;
+  const std::string var = "-var wall_frictionAngle ";
+  for (std::string line; std::getline(lines, line);) {
+    const auto at = line.find(var);
+    ASSERT_NE(at, std::string::npos) << line;
+    EXPECT_EQ(line.find(var, at + 1), std::string::npos) << line;
+    const double angle = std::stod(line.substr(at + var.size()));
+    if (line.find("-before-s1") != std::string::npos) {
+      EXPECT_EQ(angle, 40) << line;
+    }
+    if (line.find("-after-s1") == std::string::npos) continue;
+    EXPECT_NEAR(angle, 60, 6) << line;  // 40 + 2 x 10, the strength to its estimate
+    ++with_effect;
+  }
+  EXPECT_EQ(with_effect, 3) << out_;
 }
 
 }  // namespace

@@ -3,8 +3,6 @@
 // runs themselves are stood in for by small files.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -14,12 +12,15 @@
 #include <sstream>
 #include <vector>
 
+#include "gap_folder.h"
 #include "par_file.h"
 
 namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
+using vielto_test::content;
+using vielto_test::GapFolder;
 
 const char* const kPlan = R"(seeds = 6
 [family]
@@ -43,13 +44,6 @@ observable = "wall_angle"
 rows = [{value = 25}]
 )";
 
-std::string content(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  std::ostringstream out;
-  out << in.rdbuf();
-  return out.str();
-}
-
 std::vector<std::map<std::string, std::string>> table(const fs::path& path) {
   std::ifstream in(path);
   std::string line, cell;
@@ -69,31 +63,17 @@ std::vector<std::map<std::string, std::string>> table(const fs::path& path) {
   return rows;
 }
 
-class GapLibraryPlan : public testing::Test {
+class GapLibraryPlan : public GapFolder {
  protected:
   void SetUp() override {
-    const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = fs::temp_directory_path() / fmt::format("gap_plan_{}_{}", info->name(), getpid());
-    fs::remove_all(folder_);
-    fs::create_directories(folder_ / "library");
-    for (const char* name : {"effects", "diagnosis.toml", "next_tests.toml", "rigs.toml"})
-      fs::copy(fs::path(VIELTO_SOURCE_DIR) / "gap" / name, folder_ / name, fs::copy_options::recursive);
+    GapFolder::SetUp();
     write("library/plan.toml", kPlan);
     write("family.csv", "weight,frictionAngle,rollingResistance\n1,20,0.1\n1,22,0.2\n1,24,0.3\n1,26,0.4\n");
   }
-  void TearDown() override { fs::remove_all(folder_); }
 
   void write(const std::string& name, const std::string& text) {
     fs::create_directories((folder_ / name).parent_path());
     std::ofstream(folder_ / name, std::ios::binary) << text;
-  }
-  int gap(const std::string& arguments) {
-    const std::string command =
-        fmt::format("cd '{}' && '{}/vielto' gap {} > out.txt 2> err.txt", folder_.string(), VIELTO_BIN_DIR, arguments);
-    const int status = std::system(command.c_str());
-    out_ = content(folder_ / "out.txt");
-    err_ = content(folder_ / "err.txt");
-    return WEXITSTATUS(status);
   }
   const std::string root_ = "--root '" VIELTO_SOURCE_DIR "' ";
   int plan() { return gap("plan library/plan.toml --out study.csv " + root_); }
@@ -119,14 +99,6 @@ class GapLibraryPlan : public testing::Test {
     EXPECT_EQ(std::system(("sha256sum '" VIELTO_SOURCE_DIR "/cases/mixer/in.mixer' > '" + file + "'").c_str()), 0);
     return content(file).substr(0, 64);
   }
-  void expect_refusal(const std::string& part) {
-    EXPECT_EQ(err_.rfind("vielto: ", 0), 0u) << err_;
-    EXPECT_NE(err_.find(part), std::string::npos) << "expected: " << part << "\ngot: " << err_;
-    EXPECT_EQ(std::count(err_.begin(), err_.end(), '\n'), 1) << err_;
-  }
-
-  fs::path folder_;
-  std::string out_, err_;
 };
 
 TEST_F(GapLibraryPlan, TheStudyHoldsBaselineMembersAndEffects) {
@@ -195,7 +167,7 @@ TEST_F(GapLibraryPlan, RefusesRunsOfAnotherScript) {
   ASSERT_EQ(plan(), 0) << err_;
   for (const auto& run : table(folder_ / "study.csv")) finish(run, std::string(64, '0'));
   EXPECT_EQ(collect(), 2) << out_;
-  expect_refusal("the run was made from another in.mixer");
+  expect_one_line("the run was made from another in.mixer");
   EXPECT_FALSE(fs::exists(folder_ / "library/design.csv"));
 }
 
@@ -206,7 +178,7 @@ TEST_F(GapLibraryPlan, RefusesAPlanThatCannotBeRun) {
     ASSERT_NE(at, std::string::npos);
     write("library/plan.toml", text.replace(at, from.size(), to));
     EXPECT_EQ(plan(), 2) << to;
-    expect_refusal(part);
+    expect_one_line(part);
     EXPECT_FALSE(fs::exists(folder_ / "study.csv"));
   };
   refused("name = \"cohesion\"", "name = \"magic\"", "'magic' has no effect file");
