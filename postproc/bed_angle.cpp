@@ -67,7 +67,7 @@ BedAngle read_bed_angle(const std::string& path) {
     for (const Grain& g : look.grains)
       if (bed.header.tilt == 0 || g.x[0] < kEndDiameters * bed.header.grain_diameter) seen.push_back(g);
     try {
-      angles.push_back(surface_angle(seen, BedAxes{}, {}));
+      angles.push_back(drum_surface_angle(seen, bed.header.drum_diameter / 2));
     } catch (const std::invalid_argument& e) {
       throw BadInput(file, 0, e.what(), "use finer grains or more fill");
     }

@@ -4,8 +4,8 @@
 // tilt).
 //
 // Angle: the slope of the straight line through the free surface seen along the axis, in the plane across it
-// (surface_angle in bed_shape.h, across y, up z), over the grains of the whole drum where the axis lies level, and of
-// the kEndDiameters grain diameters next to the lower end face (x = 0) where it is tilted. Its mean over the looks, u
+// (drum_surface_angle in bed_shape.h), over the grains of the whole drum where the axis lies level, and of
+// those that show through the lower end face (centre within kEndDiameters grain diameters of x = 0) where it is tilted. Its mean over the looks, u
 // with the autocorrelated scatter over time (over_time).
 //
 // Errors: BadInput as record_file.h, for looks that are not all there or of different runs, and for a surface of less
@@ -19,7 +19,7 @@
 
 namespace vielto {
 
-constexpr double kEndDiameters = 3;
+constexpr double kEndDiameters = 1.5;
 
 struct BedHeader {
   double speed = 0, fill = 0, tilt = 0;                           // 1/s, 1, deg

@@ -42,47 +42,90 @@ double part_inside(const Grain& g, const std::array<double, 6>& box) {
   return static_cast<double>(in_both) / in_sphere;
 }
 
-}  // namespace
+constexpr double kDegree = 180 / kPi;
 
-Estimate surface_angle(const std::vector<Grain>& grains, BedAxes axes,
-                       std::optional<std::pair<double, double>> window) {
-  double low = std::numeric_limits<double>::infinity(), high = -low, radius = 0;
-  for (const Grain& g : grains) {
-    low = std::min(low, g.x[axes.across]);
-    high = std::max(high, g.x[axes.across]);
-    radius += g.radius / static_cast<double>(grains.size());
-  }
-  if (!window) window = {0.75 * low + 0.25 * high, 0.25 * low + 0.75 * high};
+// The highest point of a grain in the plane that is looked at.
+struct Top {
+  double across, height;
+};
+
+struct Line {
+  double slope, u_slope, height;  // at the middle of its points
+};
+
+double mean_radius(const std::vector<Grain>& grains) {
+  double radius = 0;
+  for (const Grain& g : grains) radius += g.radius / static_cast<double>(grains.size());
+  return radius;
+}
+
+// Least squares through the highest tops of strips three radii wide.
+Line surface_line(const std::vector<Top>& tops, double radius, std::pair<double, double> window) {
   // a window of whole strips has them whatever the rounding
-  const auto strips = static_cast<std::size_t>((window->second - window->first) / (kStripRadii * radius) + 1e-9);
-  std::vector<const Grain*> highest(strips, nullptr);
-  const double width = (window->second - window->first) / static_cast<double>(std::max<std::size_t>(strips, 1));
-  const auto top = [&](const Grain& g) { return g.x[axes.up] + g.radius; };
-  for (const Grain& g : grains) {
-    const double place = (g.x[axes.across] - window->first) / width;
+  const auto strips = static_cast<std::size_t>((window.second - window.first) / (kStripRadii * radius) + 1e-9);
+  std::vector<const Top*> highest(strips, nullptr);
+  const double width = (window.second - window.first) / static_cast<double>(std::max<std::size_t>(strips, 1));
+  for (const Top& t : tops) {
+    const double place = (t.across - window.first) / width;
     if (place < 0 || place >= static_cast<double>(strips)) continue;
-    const Grain*& best = highest[static_cast<std::size_t>(place)];
-    if (!best || top(g) > top(*best)) best = &g;
+    const Top*& best = highest[static_cast<std::size_t>(place)];
+    if (!best || t.height > best->height) best = &t;
   }
   double n = 0, h = 0, v = 0;
-  for (const Grain* g : highest)
-    if (g) ++n, h += g->x[axes.across], v += top(*g);
+  for (const Top* t : highest)
+    if (t) ++n, h += t->across, v += t->height;
   if (n < kLeastStrips)
     throw std::invalid_argument("the surface in the window is less than four strips of three radii wide");
   h /= n;
   v /= n;
   double hh = 0, hv = 0, vv = 0;
-  for (const Grain* g : highest) {
-    if (!g) continue;
-    const double dh = g->x[axes.across] - h, dv = top(*g) - v;
+  for (const Top* t : highest) {
+    if (!t) continue;
+    const double dh = t->across - h, dv = t->height - v;
     hh += dh * dh;
     hv += dh * dv;
     vv += dv * dv;
   }
   const double slope = hv / hh;
-  const double u_slope = std::sqrt(std::max(0.0, vv - slope * hv) / (n - 2) / hh);
-  const double degree = 180 / kPi;
-  return {degree * std::atan(std::fabs(slope)), degree * u_slope / (1 + slope * slope)};
+  return {slope, std::sqrt(std::max(0.0, vv - slope * hv) / (n - 2) / hh), v};
+}
+
+}  // namespace
+
+Estimate surface_angle(const std::vector<Grain>& grains, BedAxes axes,
+                       std::optional<std::pair<double, double>> window) {
+  std::vector<Top> tops;
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (const Grain& g : grains) {
+    tops.push_back({g.x[axes.across], g.x[axes.up] + g.radius});
+    low = std::min(low, g.x[axes.across]);
+    high = std::max(high, g.x[axes.across]);
+  }
+  if (!window) window = {0.75 * low + 0.25 * high, 0.25 * low + 0.75 * high};
+  const Line line = surface_line(tops, mean_radius(grains), *window);
+  return {kDegree * std::atan(std::fabs(line.slope)), kDegree * line.u_slope / (1 + line.slope * line.slope)};
+}
+
+Estimate drum_surface_angle(const std::vector<Grain>& grains, double drum_radius) {
+  double y = 0, z = 0;
+  for (const Grain& g : grains) y += g.x[1], z += g.x[2];
+  const double from_axis = std::hypot(y, z);
+  if (!(from_axis > 0)) throw std::invalid_argument("the bed lies evenly about the drum's axis, it has no free surface");
+  // unit vectors from the bed through the axis, and along the chord
+  const double up[2] = {-y / from_axis, -z / from_axis}, along[2] = {up[1], -up[0]};
+  std::vector<Top> tops;
+  for (const Grain& g : grains)
+    tops.push_back({along[0] * g.x[1] + along[1] * g.x[2], up[0] * g.x[1] + up[1] * g.x[2] + g.radius});
+  const double radius = mean_radius(grains);
+  Line line{0, 0, 0};
+  double half = drum_radius / 4;
+  // the second time over the middle half of the chord that the first found
+  for (int pass = 0; pass < 2; ++pass) {
+    line = surface_line(tops, radius, {-half, half});
+    half = 0.5 * std::sqrt(std::max(0.0, drum_radius * drum_radius - line.height * line.height));
+  }
+  const double angle = std::atan2(along[1], along[0]) + std::atan(line.slope);
+  return {kDegree * std::fabs(std::remainder(angle, kPi)), kDegree * line.u_slope / (1 + line.slope * line.slope)};
 }
 
 Estimate bulk_density(const std::vector<Grain>& grains, double grain_density, const std::array<double, 6>& box) {

@@ -31,8 +31,9 @@ class BedAngleOf : public testing::Test {
   void TearDown() override { fs::remove_all(folder_); }
   std::string first() const { return (folder_ / "bed_1.csv").string(); }
 
-  // Grains below a plane that falls at `near` degrees next to the end x = 0 and at `far` in the rest of the drum.
-  void look(int k, int frames, double tilt, double near, double far, std::mt19937_64& random, int grains = 6000) {
+  // Grains below a plane, `height` above the axis, that falls at `near` degrees next to the end x = 0 and at `far` in the rest of the drum.
+  void look(int k, int frames, double tilt, double near, double far, std::mt19937_64& random, int grains = 6000,
+            double height = 0) {
     std::uniform_real_distribution<double> one(-1, 1);
     std::ofstream out(folder_ / fmt::format("bed_{}.csv", k));
     out << fmt::format(
@@ -42,8 +43,8 @@ class BedAngleOf : public testing::Test {
         0.2 + 0.02 * k, tilt, kDiameter, frames);
     for (int i = 0; i < grains;) {
       const double x = kLength * (0.5 + 0.5 * one(random)), y = kRadius * one(random), z = kRadius * one(random);
-      const double slope = std::tan((x < 3 * kDiameter ? near : far) * pi / 180);
-      if (std::hypot(y, z) > kRadius - kDiameter / 2 || z > slope * y) continue;
+      const double slope = std::tan((x < kEndDiameters * kDiameter ? near : far) * pi / 180);
+      if (std::hypot(y, z) > kRadius - kDiameter / 2 || z > slope * y + height * std::hypot(1, slope)) continue;
       out << fmt::format("{},{},{},{}\n", x, y, z, kDiameter / 2);
       ++i;
     }
@@ -68,13 +69,25 @@ TEST_F(BedAngleOf, APlaneIsItsSlope) {
   }
 }
 
+// More than half of the circle full, the highest grains lie along the mantle; less than half, the chord is short.
+TEST_F(BedAngleOf, TheMantleDoesNotBendIt) {
+  std::mt19937_64 random(6);
+  for (const double angle : {36.0, 50.0, 62.0})
+    for (const double height : {0.03, -0.03}) {
+      for (int k = 1; k <= 12; ++k) look(k, 12, 0, angle, angle, random, height > 0 ? 9000 : 3000, height);
+      const BedAngle bed = read_bed_angle(first());
+      EXPECT_NEAR(bed.angle.value, angle, 3 * bed.angle.u) << angle << " at " << height;
+      EXPECT_LT(bed.angle.u, 1.0) << angle << " at " << height;
+    }
+}
+
 // Tilted, only the grains next to the lower end count; level, all of them.
 TEST_F(BedAngleOf, ATiltedDrumIsLookedAtNextToItsLowerEnd) {
   std::mt19937_64 random(4);
   for (int k = 1; k <= 6; ++k) look(k, 6, 45, 55, 30, random, 12000);
   const BedAngle tilted = read_bed_angle(first());
   EXPECT_NEAR(tilted.angle.value, 55, 3 * tilted.angle.u);
-  for (const Grain& g : tilted.last) EXPECT_LT(g.x[0], 3 * kDiameter);
+  for (const Grain& g : tilted.last) EXPECT_LT(g.x[0], kEndDiameters * kDiameter);
 }
 
 TEST_F(BedAngleOf, RefusesLooksThatAreNotThereOrOfAnotherRun) {
