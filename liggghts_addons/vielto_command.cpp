@@ -151,6 +151,8 @@ void ViEltoCommand::command(int narg, char** arg) {
     provisional(narg, arg);
   else if (what == "resume" && narg == 3)
     resume(narg, arg);
+  else if (what == "bed" && narg > 3)
+    bed(narg, arg);
   else if (what == "grains" && narg > 1 && narg % 2 == 0)
     grains(narg, arg);
   else if (what == "open" && narg > 2)
@@ -158,7 +160,7 @@ void ViEltoCommand::command(int narg, char** arg) {
   else if (what == "close" && narg == 2)
     close(narg, arg);
   else
-    vielto::stop_all(lmp, "vielto: unknown form of this command; use error, half_period, shell, prime, words, property, check, provisional, grains, open, resume or close");
+    vielto::stop_all(lmp, "vielto: unknown form of this command; use error, half_period, shell, prime, words, property, check, provisional, grains, open, resume, bed or close");
 }
 
 void ViEltoCommand::half_period(int, char** arg) {
@@ -336,6 +338,25 @@ void ViEltoCommand::open(int narg, char** arg) {
   stop_if(fault);
 }
 
+// Throws if a run was made with other parameters than those that hold now.
+void ViEltoCommand::same_parameters(const nlohmann::json& run, const std::set<std::string>& apart) {
+  for (const auto& [key, value] : run.at("parameters").items()) {
+    std::string name = key;
+    const char* now = input->variable->retrieve(&name[0]);
+    if (now && !apart.count(key) && value.get<std::string>() != now)
+      throw std::runtime_error("it was started with " + key + " " + value.get<std::string>() + ", not " + now);
+  }
+}
+
+// The text that processor 0 has, as a variable on all of them.
+void ViEltoCommand::share_variable(char* name, std::string text) {
+  int length = static_cast<int>(text.size());
+  MPI_Bcast(&length, 1, MPI_INT, 0, world);
+  text.resize(length);
+  MPI_Bcast(&text[0], length, MPI_CHAR, 0, world);
+  set_variable(name, text.c_str());
+}
+
 void ViEltoCommand::resume(int, char** arg) {
   const fs::path partial = std::string(arg[1]) + ".partial";
   std::string fault, newest;
@@ -344,13 +365,7 @@ void ViEltoCommand::resume(int, char** arg) {
       std::ifstream in(partial / "run.json");
       if (!in) throw std::runtime_error("it does not exist");
       if (!fs::exists(partial / "mesh" / "geometry.par")) throw std::runtime_error("mesh/geometry.par is missing");
-      const nlohmann::json run = nlohmann::json::parse(in);
-      for (const auto& [key, value] : run.at("parameters").items()) {
-        std::string name = key;
-        const char* now = input->variable->retrieve(&name[0]);
-        if (now && key != "resume" && key != "run" && value.get<std::string>() != now)
-          throw std::runtime_error("it was started with " + key + " " + value.get<std::string>() + ", not " + now);
-      }
+      same_parameters(nlohmann::json::parse(in), {"resume", "run"});
       newest = newest_restart(partial);
       if (newest.empty()) throw std::runtime_error("it was broken off before the first restart file was complete");
     } catch (const std::exception& e) {
@@ -358,11 +373,28 @@ void ViEltoCommand::resume(int, char** arg) {
     }
   }
   stop_if(fault);
-  int length = static_cast<int>(newest.size());
-  MPI_Bcast(&length, 1, MPI_INT, 0, world);
-  newest.resize(length);
-  MPI_Bcast(&newest[0], length, MPI_CHAR, 0, world);
-  set_variable(arg[2], newest.c_str());
+  share_variable(arg[2], newest);
+}
+
+void ViEltoCommand::bed(int narg, char** arg) {
+  const std::string folder = arg[1];
+  std::string fault, file;
+  if (comm->me == 0 && folder != "none") {
+    try {
+      std::ifstream in(fs::path(folder) / "run.json");
+      if (!in) throw std::runtime_error("it is no complete run folder");
+      std::set<std::string> apart(arg + 4, arg + narg);
+      apart.insert({"run", "resume", "bed"});
+      same_parameters(nlohmann::json::parse(in), apart);
+      file = (fs::path(folder) / "bed.restart").string();
+      if (!fs::exists(file)) throw std::runtime_error("bed.restart is missing");
+    } catch (const std::exception& e) {
+      fault = "vielto: cannot take the bed of " + folder + ": " + e.what() + "; name a run of the same bed with -var bed, or none";
+    }
+  }
+  stop_if(fault);
+  set_variable(arg[2], folder == "none" ? "0" : "1");
+  share_variable(arg[3], file);
 }
 
 void ViEltoCommand::close(int, char** arg) {

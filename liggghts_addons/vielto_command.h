@@ -22,6 +22,8 @@
                                                command line; a -var that is none of these parameters stops the run
      vielto resume FOLDER NAME                 take up FOLDER.partial, broken off earlier with the same parameters: set
                                                variable NAME to its last restart file (restart/STEP.restart)
+     vielto bed FOLDER TAKEN NAME P1 P2 ...    set variable TAKEN to 0 if FOLDER is none; else to 1 and variable NAME to FOLDER/bed.restart,
+                                               the bed of a complete run with the same parameters but for P1 P2 ...
      vielto close FOLDER                       mark run.json complete, keep the last restart file only and rename
                                                FOLDER.partial to FOLDER */
 #ifdef COMMAND_CLASS
@@ -30,6 +32,8 @@ CommandStyle(vielto, ViEltoCommand)
 #ifndef LMP_VIELTO_COMMAND_H
 #define LMP_VIELTO_COMMAND_H
 
+#include <nlohmann/json.hpp>
+#include <set>
 #include <string>
 
 #include "pointers.h"
@@ -53,6 +57,9 @@ class ViEltoCommand : protected Pointers {
   void grains(int narg, char** arg);
   void open(int narg, char** arg);
   void resume(int narg, char** arg);
+  void bed(int narg, char** arg);
+  void same_parameters(const nlohmann::json& run, const std::set<std::string>& apart);
+  void share_variable(char* name, std::string text);
   void close(int narg, char** arg);
 };
 

@@ -97,6 +97,8 @@ using ViElToStyle = GranStyle<VIELTO, TANGENTIAL_VIELTO, Cohesion, Rolling, SURF
   template struct Opened<ModelOfPair<NAME>, &PairStyles::Granular<ContactModel<NAME>>::cmodel>;
 VIELTO_TOUCHING(Plain, COHESION_OFF, ROLLING_OFF)
 VIELTO_TOUCHING(PlainRolling, COHESION_OFF, ROLLING_VIELTO)
+VIELTO_TOUCHING(Adhesion, COHESION_ADHESION, ROLLING_OFF)
+VIELTO_TOUCHING(AdhesionRolling, COHESION_ADHESION, ROLLING_VIELTO)
 VIELTO_TOUCHING(Sjkr, COHESION_SJKR, ROLLING_OFF)
 VIELTO_TOUCHING(SjkrRolling, COHESION_SJKR, ROLLING_VIELTO)
 VIELTO_TOUCHING(Sjkr2, COHESION_SJKR2, ROLLING_OFF)
@@ -142,8 +144,11 @@ struct Registration {
     models.addTangentialModel("vielto", TANGENTIAL_VIELTO);
     models.addRollingModel("vielto", ROLLING_VIELTO);
     models.addNormalModel("cohfrict", COHFRICT);
+    models.addCohesionModel("adhesion", COHESION_ADHESION);
     add_touching<Plain>();
     add_touching<PlainRolling>();
+    add_touching<Adhesion>();
+    add_touching<AdhesionRolling>();
     add_touching<Sjkr>();
     add_touching<SjkrRolling>();
     add_touching<Sjkr2>();

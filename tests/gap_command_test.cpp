@@ -32,7 +32,7 @@ class GapCommand : public GapFolder {
     toy::write_library(folder_ / "library", toy::effects_with_runs(), 0, 7);
     toy::write_discrepancy(folder_ / "library");
     toy::State state;
-    state.effects["cohesion"] = 40000;
+    state.effects["cohesion"] = 200;
     std::mt19937_64 random(5);
     rows_ = toy::measured(state, random);
     write(rows_);
@@ -188,8 +188,8 @@ TEST_F(GapCommand, RefusesLibrariesWithOneClearLine) {
     expect_refusal(part);
   };
   with_design("none,0,1,", "none,1,1,", "column strength: is not 0 for the effect 'none'");
-  with_design("cohesion,20000,", "glue,20000,", "column effect: 'glue' has no file");
-  with_design("cohesion,20000,", "cohesion,2e9,", "column strength: 2000000000 is outside the prior range of cohesion");
+  with_design("cohesion,100,", "glue,20000,", "column effect: 'glue' has no file");
+  with_design("cohesion,100,", "cohesion,2e9,", "column strength: 2000000000 is outside the prior range of cohesion");
   with_design("none,0,1,", "none,0,1.5,", "column seed: '1.5' is no seed");
   with_design("none,0,1,0", "none,0,1,x", "column run_hash: ");
   with_design("test,effect", "run,effect", "design.csv, line 1: has another header");
@@ -236,7 +236,7 @@ TEST_F(GapCommand, RefusesEffectsAndSettingsWithOneClearLine) {
   with_effect("prior_low = 0.0", "prior_low = 1.0", "column prior_low: 1 is out of range");
   with_effect("unit = ", "units = ", "column units: is no key here");
   with_effect("rule = \"value\"", "rule = \"times\"", "column rule: 'times' is none of its values");
-  with_effect("unit = \"J/m3\"", "unit = ", "cohesion.toml, line 4");
+  with_effect("unit = \"Pa\"", "unit = ", "cohesion.toml, line 4");
   std::ofstream(effect) << good;
   replace_in(folder_ / "diagnosis.toml", "no_gap = 0.5", "no_gap = 0.6");
   expect_refusal("column prior: does not sum to 1");
@@ -315,7 +315,7 @@ TEST_F(GapCommand, ConfirmPrintsTheCommandsOfEveryCheckTest) {
     EXPECT_NE(line.find("liggghts -in in.mixer -var speed "), std::string::npos) << line;
     EXPECT_NE(line.find("vielto post"), std::string::npos) << line;
     const bool after = line.find("-after-s1") != std::string::npos;
-    EXPECT_EQ(line.find("-var cohesion sjkr2") != std::string::npos, after) << line;
+    EXPECT_EQ(line.find("-var cohesion adhesion") != std::string::npos, after) << line;
     EXPECT_EQ(line.find("-var frictionAngle") != std::string::npos, line.find("-before-") == std::string::npos) << line;
     with_effect += after;
   }

@@ -68,7 +68,7 @@ Threshold GapDiagnosis::threshold_;
 // A law that differs as the discrepancy file says, an effect at two thirds of its range: named, with its strength.
 TEST_F(GapDiagnosis, NamesEachEffectOfTheToy) {
   const std::map<std::string, double> truths = {
-      {"cohesion", 40000}, {"shape", 0.27}, {"wall_friction", 8}, {"dissipation", 0.22}};
+      {"cohesion", 200}, {"shape", 0.27}, {"wall_friction", 8}, {"dissipation", 0.22}};
   std::mt19937_64 random(5);
   int right = 0, covered = 0, n = 0;
   for (const auto& [name, strength] : truths)

@@ -33,7 +33,7 @@ conditions = [{speed = 0.5, fill = 0.1}, {speed = 1.5, fill = 0.2}]
 members_at = [2]
 [[rig.effect]]
 name = "cohesion"
-strengths = [30000]
+strengths = [150]
 at = [1, 2]
 [[rig.effect]]
 name = "wall_friction"
@@ -113,15 +113,15 @@ TEST_F(GapLibraryPlan, TheStudyHoldsBaselineMembersAndEffects) {
     const std::string& name = row.at("run");
     if (name.find("_none_") != std::string::npos) {
       ++baseline;
-      for (const char* var : {"cohesion", "cohesionEnergyDensity", "wall_frictionAngle", "frictionAngle"})
+      for (const char* var : {"cohesion", "adhesionStrength", "wall_frictionAngle", "frictionAngle"})
         EXPECT_EQ(row.at(var), "") << name << " " << var;
     } else if (name.find("_member") != std::string::npos) {
       ++members;
       EXPECT_EQ(row.at("speed"), "1.5");
       EXPECT_EQ(row.at("rollingResistance"), row.at("frictionAngle") == "22" ? "0.2" : "0.4");
     } else if (name.find("cohesion") != std::string::npos) {
-      EXPECT_EQ(row.at("cohesion"), "sjkr2");
-      EXPECT_EQ(row.at("cohesionEnergyDensity"), "30000");
+      EXPECT_EQ(row.at("cohesion"), "adhesion");
+      EXPECT_EQ(row.at("adhesionStrength"), "150");
     } else {
       // a contact takes the mean of both bodies: 2 deg of the wall are 1 deg of the contact
       const double change = std::stod(row.at("wall_frictionAngle")) - wall;
@@ -182,8 +182,8 @@ TEST_F(GapLibraryPlan, RefusesAPlanThatCannotBeRun) {
     EXPECT_FALSE(fs::exists(folder_ / "study.csv"));
   };
   refused("name = \"cohesion\"", "name = \"magic\"", "'magic' has no effect file");
-  refused("strengths = [30000]", "strengths = [900000]", "outside the prior range");
-  refused("strengths = [30000]", "strengths = [0]", "outside the prior range");
+  refused("strengths = [150]", "strengths = [900000]", "outside the prior range");
+  refused("strengths = [150]", "strengths = [0]", "outside the prior range");
   refused("at = [1, 2]", "at = [3]", "3 is no condition");
   refused("grainDiameter = ", "grainDiametre = ", "is no parameter of in.mixer");
   refused("speed = 0.5", "tilt = 0.5", "is no condition of this rig");

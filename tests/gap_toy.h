@@ -45,7 +45,7 @@ constexpr Kind kKinds[] = {{"mixer", "power", "W", 0.02},
 inline double value(const vielto::Observation& row, const State& s) {
   const double n = row.speed.value_or(1), l = row.fill.value_or(0.15);
   const double f = s.friction / 25, r = s.rolling / 0.1;
-  const double cohesion = effect(s, "cohesion") / 60000, shape = effect(s, "shape") / 0.4;
+  const double cohesion = effect(s, "cohesion") / 300, shape = effect(s, "shape") / 0.4;
   const double wall = effect(s, "wall_friction") / 12, dissipation = effect(s, "dissipation") / 0.33;
   if (row.observable == "power") {
     double p = 30 * std::pow(n, 1.1) * (l / 0.15) * std::pow(f, 0.5) * std::pow(r, 0.1);
@@ -176,9 +176,9 @@ inline void write_discrepancy(const fs::path& folder, double scale = 1) {
 
 // The runs of the toy's effects: what a small campaign would hold.
 inline std::map<std::string, std::vector<double>> effects_with_runs() {
-  return {{"cohesion", {20000, 40000, 60000}},
+  return {{"cohesion", {100, 200, 300}},
           {"shape", {0.13, 0.27, 0.4}},
-          {"wall_friction", {-8, 6, 12}},
+          {"wall_friction", {-8, 6, 12, 20}},
           {"dissipation", {-0.23, 0.17, 0.33}}};
 }
 

@@ -90,6 +90,30 @@ TEST(ShearboxResume, CarriesOnAKilledRunOnOneAndTwoRanks) {
   EXPECT_LT(difference(whole, two, 20, 24), 1e-7);
 }
 
+// A bed that was filled and loaded once is sheared again: the same record to the last digit, and at another velocity the
+// same bed at the start. A bed of other grain is refused.
+TEST(ShearboxRun, ShearsTheBedOfAnotherRun) {
+  Rig rig("shearbox");
+  rig.must("first", coarse_shear);
+  const std::string bed = fmt::format("-var bed '{}' ", (rig.folder / "first").string());
+  rig.must("again", coarse_shear, bed);
+  EXPECT_EQ(rig.read("first/shear.csv"), rig.read("again/shear.csv"));
+  rig.must("slower", coarse_shear, bed + "-var shearVelocity 0.05 ");
+  const Table first = rig.csv("first/shear.csv"), slower = rig.csv("slower/shear.csv");
+  EXPECT_NEAR(slower.at(0, "porosity"), first.at(0, "porosity"), 1e-4);
+  EXPECT_NEAR(slower.at(1, "displacement_m"), first.at(0, "displacement_m"), 1e-12);
+  EXPECT_NE(rig.rig("other", coarse_shear, bed + "-var seed 2 ").text.find("cannot take the bed"), std::string::npos);
+  EXPECT_NE(rig.rig("no", coarse_shear, "-var bed nowhere ").text.find("cannot take the bed of nowhere"), std::string::npos);
+}
+
+// Slippery while it is filled, the grain lies closer than with the friction of its card.
+TEST(ShearboxRun, IsFilledWithAFrictionOfItsOwn) {
+  Rig rig("shearbox");
+  rig.must("close", coarse_shear);
+  rig.must("loose", coarse_shear, "-var fillFrictionAngle 28 -var overfill 1.05 ");
+  EXPECT_LT(rig.csv("close/shear.csv").at(0, "porosity") + 0.01, rig.csv("loose/shear.csv").at(0, "porosity"));
+}
+
 TEST(ShearboxPost, MakesTheNumbersOfTheRun) {
   Rig rig("shearbox");
   rig.must("run", coarse_shear);
