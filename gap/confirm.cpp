@@ -12,6 +12,7 @@
 #include <thread>
 
 #include "bad_input.h"
+#include "condition.h"
 #include "csv.h"
 #include "rig.h"
 
@@ -75,15 +76,22 @@ Plan plan_confirmation(const Inputs& inputs, const TableModel& model, const Diag
   const TomlTable file = TomlTable::read(rigs_file);
   std::map<std::string, Rig> rigs;
   std::set<std::string> done;
+  std::map<std::string, std::string> alike;  // conditions -> the test whose runs serve all of these
   for (const Observation& row : model.rows) {
     if (row.role != "check" || row.apparatus == "bench" || !done.insert(row.test).second) continue;
     if (rigs.count(row.apparatus) == 0) rigs[row.apparatus] = Rig::read(file, row.apparatus, root);
     const Rig& rig = rigs[row.apparatus];
+    const std::string first = alike.emplace(row.apparatus + " " + conditions_text(row), row.test).first->second;
+    if (first != row.test) {
+      for (PlannedRun& run : plan.runs)
+        if (run.tests.front() == first) run.tests.push_back(row.test);
+      continue;
+    }
     for (const Variant& v : plan.variants)
       for (int seed = 1; seed <= seeds; ++seed) {
         PlannedRun run;
         run.variant = v.name;
-        run.test = row.test;
+        run.tests = {row.test};
         run.apparatus = row.apparatus;
         run.seed = seed;
         run.folder = rig.folder;
@@ -184,11 +192,13 @@ Shrink measured_shrink(const Plan& plan, const Inputs& inputs, const TableModel&
     const std::string path = (fs::path(run.run) / "post" / "observations.csv").string();
     if (!fs::exists(path)) throw BadInput(path, 0, "is not there", "run: " + command_line(run));
     for (const Observation& row : read_reduced_table(path).rows) {
-      auto& sum = sums[run.variant + " " + run.test + " " + row.observable];
-      sum.first += row.value;
-      ++sum.second;
+      for (const std::string& test : run.tests) {
+        auto& sum = sums[run.variant + " " + test + " " + row.observable];
+        sum.first += row.value;
+        ++sum.second;
+      }
     }
-    share[run.variant + " " + run.test] = run.share;
+    for (const std::string& test : run.tests) share[run.variant + " " + test] = run.share;
   }
   std::vector<const Observation*> rows;
   std::set<std::string> tests;

@@ -6,7 +6,7 @@
 // becomes a run). Effects on the measurement chain need no run of their own: they transform what the recalibrated
 // baseline shows; a shift of a condition is a run at the shifted condition. Runs that are complete (run.json there) are
 // not made again. `effects` are simulated at their median strengths together with the parameters of the family that fit
-// best with them.
+// best with them. Check tests under equal conditions share their runs.
 #pragma once
 
 #include <map>
@@ -20,7 +20,8 @@ namespace vielto::gap {
 
 struct PlannedRun {
   std::string variant;  // before, recalibrated, after, placebo
-  std::string test, apparatus;
+  std::string apparatus;
+  std::vector<std::string> tests;  // the check tests whose conditions it has
   int seed = 1;
   std::string folder;  // where it is started
   std::string run;     // run folder

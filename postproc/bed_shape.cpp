@@ -118,7 +118,7 @@ Estimate drum_surface_angle(const std::vector<Grain>& grains, double drum_radius
     tops.push_back({along[0] * g.x[1] + along[1] * g.x[2], up[0] * g.x[1] + up[1] * g.x[2] + g.radius});
   const double radius = mean_radius(grains);
   Line line{0, 0, 0};
-  double half = drum_radius / 4;
+  double half = drum_radius / 2;
   // the second time over the middle half of the chord that the first found
   for (int pass = 0; pass < 2; ++pass) {
     line = surface_line(tops, radius, {-half, half});

@@ -322,6 +322,22 @@ TEST_F(GapCommand, ConfirmPrintsTheCommandsOfEveryCheckTest) {
   EXPECT_EQ(with_effect, 3);
 }
 
+// Replicates are one run: a fourth check test under the conditions of another needs none of its own.
+TEST_F(GapCommand, ConfirmRunsEqualConditionsOnce) {
+  rows_.erase(std::remove_if(rows_.begin(), rows_.end(),
+                             [](const Observation& r) { return r.apparatus != "mixer" && r.role == "check"; }),
+              rows_.end());
+  const auto check = std::find_if(rows_.begin(), rows_.end(), [](const Observation& r) { return r.role == "check"; });
+  ASSERT_NE(check, rows_.end());
+  Observation replicate = *check;
+  replicate.test = "replicate";
+  rows_.push_back(replicate);
+  write(rows_);
+  ASSERT_EQ(gap("confirm t.csv --library library --draws 100 --out answer --root " VIELTO_SOURCE_DIR), 0) << err_;
+  EXPECT_EQ(std::count(out_.begin(), out_.end(), '\n'), 12) << out_;
+  EXPECT_EQ(out_.find("replicate"), std::string::npos) << out_;
+}
+
 // An effect that starts from a baseline value starts from the one that --var states, and every -var is stated once:
 // LIGGGHTS takes the first of two.
 TEST_F(GapCommand, ConfirmTakesAnEffectFromTheStatedSetting) {

@@ -1,0 +1,145 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""gap/portion: a library in portions is the library made in one go; a changed file needs repeated runs with equal numbers.
+
+  gap_portion_test.py VIELTO      the program; run from anywhere
+The campaign's results are stand-ins: what a run leaves, with numbers from a formula.
+"""
+import csv
+import hashlib
+import json
+import pathlib
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+PLAN = """seeds = 6
+[[rig]]
+name = "drum"
+conditions = [{tilt = 0}, {tilt = 45}]
+[[rig.effect]]
+name = "wall_friction"
+strengths = [7, 14]
+at = [1, 2]
+"""
+HEADER = "test,role,apparatus,observable,value,u,unit,speed,fill,moisture,normal_stress,shear_velocity,tilt,wall,material"
+
+
+class Portion(unittest.TestCase):
+    def setUp(self):
+        self.folder = pathlib.Path(tempfile.mkdtemp())
+        gap = self.folder / "gap"
+        (gap / "library").mkdir(parents=True)
+        shutil.copytree(ROOT / "gap/effects", gap / "effects")
+        for name in ("diagnosis.toml", "rigs.toml"):
+            shutil.copy(ROOT / "gap" / name, gap / name)
+        for name in ("cases", "materials", "liggghts_addons"):  # the runs' inputs, which the test changes
+            shutil.copytree(ROOT / name, self.folder / name, ignore=shutil.ignore_patterns("results"))
+        (gap / "library/plan.toml").write_text(PLAN)
+        self.assertEqual(self.vielto("gap", "plan", "gap/library/plan.toml", "--out", "study.csv").returncode, 0)
+        with open(self.folder / "study.csv") as file:
+            self.runs = list(csv.DictReader(file))
+        self.assertEqual(len(self.runs), 6 * 2 + 2 * 2)
+
+    def tearDown(self):
+        shutil.rmtree(self.folder)
+
+    def run_program(self, *words):
+        env = dict(os.environ, PATH=f"{VIELTO.parent}:{os.environ['PATH']}")
+        return subprocess.run(list(map(str, words)), cwd=self.folder, env=env, capture_output=True, text=True)
+
+    def vielto(self, *words):
+        return self.run_program(VIELTO, *words)
+
+    def portion(self, results):
+        return self.run_program(ROOT / "gap/portion", "gap/library/plan.toml", results, "gap/library")
+
+    def finish(self, results, runs, shift=0.0):
+        script = hashlib.sha256((self.folder / "cases/drum/in.drum").read_bytes()).hexdigest()
+        for k, run in enumerate(runs):
+            folder = self.folder / results
+            (folder / "runs" / run["run"]).mkdir(parents=True, exist_ok=True)
+            (folder / "post").mkdir(exist_ok=True)
+            (folder / "runs" / run["run"] / "run.json").write_text(json.dumps({"hashes": {"in.drum": script}, "parameters": dict(run)}))
+            value = 36 + float(run["tilt"]) / 6 + 0.1 * int(run["seed"]) + shift
+            (folder / "post" / f"{run['run']}.csv").write_text(
+                f"{HEADER}\n{run['run']},fit,drum,angle,{value},0.5,deg,0.083333,0.5,,,,{run['tilt']},wall_A,wheat\n")
+
+    def library(self):
+        """file -> its rows, in any order"""
+        return {p.name: sorted(p.read_text().splitlines()) for p in (self.folder / "gap/library").glob("*.csv")}
+
+    def collect(self, results):
+        done = self.vielto("gap", "collect", "gap/library/plan.toml", results, "--out", "gap/library")
+        self.assertEqual(done.returncode, 0, done.stderr)
+
+    def change_script(self):
+        with open(self.folder / "cases/drum/in.drum", "a") as file:
+            file.write("# a remark\n")
+
+    def test_two_portions_are_one_library(self):
+        self.finish("all", self.runs)
+        self.collect("all")
+        whole = self.library()
+        for path in (self.folder / "gap/library").glob("*.csv"):
+            path.unlink()
+        self.finish("first", self.runs[:12]), self.finish("second", self.runs[12:])
+        self.collect("first")
+        done = self.portion("second")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("4 runs added, 16 of 16", done.stdout)
+        self.assertEqual(self.library(), whole)
+
+    def test_what_the_plan_has_no_longer_goes(self):
+        self.finish("first", self.runs)
+        self.collect("first")
+        (self.folder / "gap/library/plan.toml").write_text(PLAN.replace("[7, 14]", "[7, 20]"))
+        done = self.vielto("gap", "plan", "gap/library/plan.toml", "--out", "study.csv")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        with open(self.folder / "study.csv") as file:
+            self.finish("second", [run for run in csv.DictReader(file) if "friction20" in run["run"]])
+        self.assertEqual(self.portion("second").returncode, 0)
+        text = "\n".join(self.library()["design.csv"])
+        self.assertIn("drum1_wall_friction20_s301", text)
+        self.assertNotIn("wall_friction14", text)
+        self.assertIn("wall_friction7", text)
+
+    def test_a_changed_file_needs_runs_that_show_that_it_makes_no_difference(self):
+        self.finish("first", self.runs[:12])
+        self.collect("first")
+        before = self.library()
+        self.change_script()
+        self.finish("new", self.runs[12:])
+        done = self.portion("new")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("in.drum", done.stderr)
+        self.assertIn("repeat 2 of its runs", done.stderr)
+        self.assertEqual(self.library(), before)
+        self.finish("new", self.runs[3:5])
+        done = self.portion("new")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("made no difference", done.stdout)
+        script = hashlib.sha256((self.folder / "cases/drum/in.drum").read_bytes()).hexdigest()
+        self.assertIn(script, "\n".join(self.library()["inputs.csv"]))
+        self.assertEqual(len(self.library()["observations.csv"]), 1 + 16)
+
+    def test_other_numbers_are_refused(self):
+        self.finish("first", self.runs[:12])
+        self.collect("first")
+        before = self.library()
+        self.change_script()
+        self.finish("new", self.runs[3:5], shift=1e-6)
+        done = self.portion("new")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("has other numbers", done.stderr)
+        self.assertEqual(self.library(), before)
+        self.assertEqual([p.name for p in (self.folder / "gap").iterdir() if p.is_dir() and p.name.startswith("tmp")], [])
+
+
+if __name__ == "__main__":
+    VIELTO = pathlib.Path(sys.argv.pop(1)).resolve()
+    unittest.main()
