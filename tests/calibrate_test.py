@@ -101,6 +101,16 @@ with tempfile.TemporaryDirectory() as name:
     assert axes[0]["sd_over_prior"] < 0.4 and axes[-1]["sd_over_prior"] > 0.9, axes
     assert abs(axes[0]["axis"]["wall"]) < 0.1, axes
 
+    # where the plan says that parameters are impossible there is neither a run nor a member of the family
+    (folder / "part.toml").write_text(PLAN.replace("points = 32", 'points = 32\nwhere = "phi < 30"'))
+    assert calibrate("design", folder / "part.toml", "--out", folder / "part.csv").returncode == 0
+    part = list(csv.DictReader((folder / "part.csv").open()))
+    assert 10 < len(part) < 32 and all(float(row["frictionAngle"]) < 30 for row in part), part
+    assert max(phis) > 31, phis
+    done = calibrate("fit", folder / "part.toml", folder / "numbers.csv", "--out", folder / "part.posterior.csv")
+    assert done.returncode == 0, done.stderr
+    assert all(float(m["frictionAngle"]) < 30 for m in csv.DictReader((folder / "part.posterior.csv").open()))
+
     bad = calibrate("fit", folder / "plan.toml", folder / "none.csv", "--out", folder / "y.posterior.csv")
     assert bad.returncode == 2 and "none.csv: No such file" in bad.stderr, bad
     (folder / "few.csv").write_text("".join((folder / "numbers.csv").read_text().splitlines(True)[:6]))
