@@ -60,12 +60,21 @@ with tempfile.TemporaryDirectory(prefix="vielto-campaign-") as name:
     assert not any(line.startswith("slow,") for line in (folder / "parts/observations.csv").open())
     rest = subprocess.run([*campaign(study, folder / "parts"), "--only", "slow"], capture_output=True, text=True)
     assert rest.returncode == 0 and tables(folder / "parts") == tables(folder / "whole"), rest.stdout + rest.stderr
+    # a shear run takes the bed of another, which comes first wherever it stands; in a portion too
+    study.write_text("run,rig,shearVelocity,bed,grainDiameter,youngsModulus,wall_youngsModulus,normalStress,settleTime,loadTime,maxPlateError,maxOverlap,displacement\n"
+                     "slow_a,shearbox,0.1,fast_b,0.006,1e6,1e6,1961,0.12,0.06,0.5,0.5,0.004\nfast_b,shearbox,0.2,,0.006,1e6,1e6,1961,0.12,0.06,0.5,0.5,0.004\n")
+    beds = subprocess.run([*campaign(study, folder / "beds"), "--only", "_a"], capture_output=True, text=True)
+    assert beds.returncode == 0, beds.stdout + beds.stderr + (folder / "beds/snakemake.log").read_text()
+    filled = [(folder / "beds/runs" / run / "bed.restart").exists() for run in ("slow_a", "fast_b")]
+    assert filled == [False, True], filled
     # nothing to do any more
+    study.write_text(STUDY)
     third = subprocess.run(campaign(study, out), capture_output=True, text=True)
     assert third.returncode == 0 and tables(out) == tables(folder / "whole")
 
     for text, fault in (("run,rig,seed\na,mill,1\n", "line 2: a run needs a name in `run` and one of mixer, shearbox, repose"),
                         ("run,rig,seed\na,mixer,1\na,mixer,2\n", "line 3: run a is there twice"),
+                        ("run,rig,bed\na,shearbox,b\n", "line 2: bed b is no run of this study"),
                         ("run,rig,seed\na,mixer\n", "line 2: it has not as many cells as the header"),
                         ("run,rig,seed\n", "there are no runs in it")):
         study.write_text(text)
