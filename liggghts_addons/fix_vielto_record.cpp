@@ -71,6 +71,12 @@ int FixViEltoRecord::read_energy(const std::string& value) {
   return 1;
 }
 
+void FixViEltoRecord::init() {
+  FixViEltoRows::init();
+  if (energy_ && vielto::stock_law())
+    vielto::stop_all(lmp, "vielto: energy accounts are kept by the laws vielto and cohfrict only; leave energy off");
+}
+
 void FixViEltoRecord::pre_force(int vflag) {
   FixViEltoRows::pre_force(vflag);
   tally_.energy = energy_;

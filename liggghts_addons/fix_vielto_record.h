@@ -29,6 +29,7 @@ namespace LAMMPS_NS {
 class FixViEltoRecord : public FixViEltoRows {
  public:
   FixViEltoRecord(class LAMMPS*, int, char**);
+  void init() override;
   void pre_force(int) override;
   double compute_vector(int) override;
 

@@ -145,6 +145,10 @@ void ViEltoCommand::command(int narg, char** arg) {
     set_variable(arg[1], joined(narg, arg, 2).c_str());
   else if (what == "property" && narg == 4)
     property(narg, arg);
+  else if (what == "pair_property" && narg == 4)
+    pair_property(narg, arg);
+  else if (what == "lacks" && narg > 2)
+    lacks(narg, arg);
   else if (what == "check" && narg > 1)
     check(narg, arg);
   else if (what == "provisional" && narg > 2)
@@ -160,14 +164,14 @@ void ViEltoCommand::command(int narg, char** arg) {
   else if (what == "close" && narg == 2)
     close(narg, arg);
   else
-    vielto::stop_all(lmp, "vielto: unknown form of this command; use error, half_period, shell, prime, words, property, check, provisional, grains, open, resume, bed or close");
+    vielto::stop_all(lmp, "vielto: unknown form of this command; use error, half_period, shell, prime, words, property, pair_property, lacks, check, provisional, grains, open, resume, bed or close");
 }
 
 void ViEltoCommand::half_period(int, char** arg) {
   if (std::string(arg[2]) != "radius" || std::string(arg[4]) != "density")
     vielto::stop_all(lmp, "vielto: write 'vielto half_period NAME radius R density RHO'");
   if (vielto::settings().law == vielto::NO_LAW)
-    vielto::stop_all(lmp, "vielto: half_period needs 'pair_style gran model vielto ...' (or cohfrict) before it");
+    vielto::stop_all(lmp, "vielto: half_period needs 'pair_style gran model vielto ...' (or another law of this package) before it");
   const double radius = force->numeric(FLERR, arg[3]), density = force->numeric(FLERR, arg[5]);
   if (!(radius > 0 && density > 0)) vielto::stop_all(lmp, "vielto: half_period needs a radius and a density > 0");
   char value[64];
@@ -219,6 +223,37 @@ void ViEltoCommand::property(int, char** arg) {
   const std::string line = "fix " + name + " all property/global " + name + " peratomtype " + grain + " " + wall +
                            (atom->ntypes == 3 ? " " + grain : "");
   input->one(line.c_str());
+}
+
+void ViEltoCommand::pair_property(int, char** arg) {
+  const std::string name = arg[1], grain = arg[2], wall = arg[3];
+  if (atom->ntypes < 2 || atom->ntypes > 3)
+    vielto::stop_all(lmp, "vielto: pair_property needs a box of two types (grain, wall) or three (and fixed grains)");
+  std::string line = "fix " + name + " all property/global " + name + " peratomtypepair " + std::to_string(atom->ntypes);
+  for (int i = 1; i <= atom->ntypes; i++)
+    for (int j = 1; j <= atom->ntypes; j++) line += " " + (i == 2 || j == 2 ? wall : grain);
+  input->one(line.c_str());
+}
+
+void ViEltoCommand::lacks(int narg, char** arg) {
+  std::string fault;
+  if (comm->me == 0) {
+    const std::vector<std::string> given = names_on_command_line();
+    const std::string law = std::string("vielto: law ") + arg[1];
+    for (int i = 2; i < narg; i++) {
+      const std::string item = arg[i], value = item.substr(std::min(item.find('=') + 1, item.size()));
+      const bool free = item.find('=') == std::string::npos;
+      for (std::string name : {item.substr(0, item.find('=')), "wall_" + item.substr(0, item.find('='))}) {
+        if (!fault.empty()) break;
+        const char* now = input->variable->retrieve(&name[0]);
+        if (free && std::find(given.begin(), given.end(), name) != given.end())
+          fault = law + " has no counterpart of " + name + " (cases/laws/" + arg[1] + ".in); leave out -var " + name;
+        else if (!free && now && now != value && !(is_number(now) && is_number(value) && std::stod(now) == std::stod(value)))
+          fault = law + " has no counterpart of " + name + " " + now + " (cases/laws/" + arg[1] + ".in); give -var " + name + " " + value;
+      }
+    }
+  }
+  stop_if(fault);
 }
 
 void ViEltoCommand::check(int narg, char** arg) {

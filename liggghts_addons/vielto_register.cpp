@@ -6,6 +6,7 @@
 #include <mpi.h>
 #include <stdio.h>
 #include <map>
+#include <set>
 #include <string>
 #include "lammps.h"
 #include "atom.h"
@@ -61,11 +62,11 @@ Fix* make_fix(LAMMPS* lmp, int narg, char** arg) {
 
 Fix* (*stock_wall)(LAMMPS*, int, char**) = NULL;
 
-// Our wall loop for our laws; a wall of another law stays LIGGGHTS' own.
+// Our wall loop for the laws of this package; a wall of another law stays LIGGGHTS' own.
 Fix* make_wall_fix(LAMMPS* lmp, int narg, char** arg) {
+  const std::set<std::string> ours = {"vielto", "cohfrict", "hertz/watched", "hooke/watched"};
   for (int k = 3; k + 1 < narg; k++)
-    if (std::string(arg[k]) == "model" && (std::string(arg[k + 1]) == "vielto" || std::string(arg[k + 1]) == "cohfrict"))
-      return new FixViEltoWall(lmp, narg, arg);
+    if (std::string(arg[k]) == "model" && ours.count(arg[k + 1])) return new FixViEltoWall(lmp, narg, arg);
   return stock_wall(lmp, narg, arg);
 }
 
@@ -90,19 +91,27 @@ void install(LAMMPS* lmp) {
 
 template <int Cohesion, int Rolling>
 using ViElToStyle = GranStyle<VIELTO, TANGENTIAL_VIELTO, Cohesion, Rolling, SURFACE_DEFAULT>;
+template <int Normal, int Cohesion>
+using StockStyle = GranStyle<Normal, TANGENTIAL_HISTORY, Cohesion, ROLLING_EPSD2, SURFACE_DEFAULT>;
 
 // Styles with cohesion in contact only take our pair loop, which needs the model of LIGGGHTS' own.
-#define VIELTO_TOUCHING(NAME, COHESION, ROLLING)       \
-  using NAME = ViElToStyle<COHESION, ROLLING>;         \
+#define VIELTO_TOUCHING(NAME, ...)                     \
+  using NAME = __VA_ARGS__;                            \
   template struct Opened<ModelOfPair<NAME>, &PairStyles::Granular<ContactModel<NAME>>::cmodel>;
-VIELTO_TOUCHING(Plain, COHESION_OFF, ROLLING_OFF)
-VIELTO_TOUCHING(PlainRolling, COHESION_OFF, ROLLING_VIELTO)
-VIELTO_TOUCHING(Adhesion, COHESION_ADHESION, ROLLING_OFF)
-VIELTO_TOUCHING(AdhesionRolling, COHESION_ADHESION, ROLLING_VIELTO)
-VIELTO_TOUCHING(Sjkr, COHESION_SJKR, ROLLING_OFF)
-VIELTO_TOUCHING(SjkrRolling, COHESION_SJKR, ROLLING_VIELTO)
-VIELTO_TOUCHING(Sjkr2, COHESION_SJKR2, ROLLING_OFF)
-VIELTO_TOUCHING(Sjkr2Rolling, COHESION_SJKR2, ROLLING_VIELTO)
+VIELTO_TOUCHING(Plain, ViElToStyle<COHESION_OFF, ROLLING_OFF>)
+VIELTO_TOUCHING(PlainRolling, ViElToStyle<COHESION_OFF, ROLLING_VIELTO>)
+VIELTO_TOUCHING(Adhesion, ViElToStyle<COHESION_ADHESION, ROLLING_OFF>)
+VIELTO_TOUCHING(AdhesionRolling, ViElToStyle<COHESION_ADHESION, ROLLING_VIELTO>)
+VIELTO_TOUCHING(Sjkr, ViElToStyle<COHESION_SJKR, ROLLING_OFF>)
+VIELTO_TOUCHING(SjkrRolling, ViElToStyle<COHESION_SJKR, ROLLING_VIELTO>)
+VIELTO_TOUCHING(Sjkr2, ViElToStyle<COHESION_SJKR2, ROLLING_OFF>)
+VIELTO_TOUCHING(Sjkr2Rolling, ViElToStyle<COHESION_SJKR2, ROLLING_VIELTO>)
+VIELTO_TOUCHING(Hertz, StockStyle<HERTZ_WATCHED, COHESION_OFF>)
+VIELTO_TOUCHING(HertzSjkr, StockStyle<HERTZ_WATCHED, COHESION_SJKR>)
+VIELTO_TOUCHING(HertzSjkr2, StockStyle<HERTZ_WATCHED, COHESION_SJKR2>)
+VIELTO_TOUCHING(Hooke, StockStyle<HOOKE_WATCHED, COHESION_OFF>)
+VIELTO_TOUCHING(HookeSjkr, StockStyle<HOOKE_WATCHED, COHESION_SJKR>)
+VIELTO_TOUCHING(HookeSjkr2, StockStyle<HOOKE_WATCHED, COHESION_SJKR2>)
 #undef VIELTO_TOUCHING
 
 namespace {
@@ -153,6 +162,14 @@ struct Registration {
     add_touching<SjkrRolling>();
     add_touching<Sjkr2>();
     add_touching<Sjkr2Rolling>();
+    models.addNormalModel("hertz/watched", HERTZ_WATCHED);
+    models.addNormalModel("hooke/watched", HOOKE_WATCHED);
+    add_touching<Hertz>();
+    add_touching<HertzSjkr>();
+    add_touching<HertzSjkr2>();
+    add_touching<Hooke>();
+    add_touching<HookeSjkr>();
+    add_touching<HookeSjkr2>();
     // a capillary bridge and a stretched bond pull beyond contact and need LIGGGHTS' own loop
     add_bridging<ViElToStyle<COHESION_EASO_CAPILLARY_VISCOUS, ROLLING_OFF>>();
     add_bridging<ViElToStyle<COHESION_EASO_CAPILLARY_VISCOUS, ROLLING_VIELTO>>();

@@ -6,12 +6,13 @@
 
 namespace vielto {
 
-enum Law { NO_LAW, VIELTO_LAW, COHFRICT_LAW };
+enum Law { NO_LAW, VIELTO_LAW, COHFRICT_LAW, HERTZ_LAW, HOOKE_LAW };
 
 struct Settings {
   double springFactor;      // c_n
   double wallRadiusFactor;  // R_2/R_1 of a wall
   Law law;                  // of the last pair_style
+  double maxOverlap;        // over the diameter; kept by HERTZ_LAW and HOOKE_LAW
 };
 
 /* Sums since the fix last cleared them; energies in J, positive where energy leaves the grains.
@@ -33,9 +34,12 @@ struct Tally {
 };
 
 inline Settings& settings() {
-  static Settings s = {4.0, 2.0, NO_LAW};
+  static Settings s = {4.0, 2.0, NO_LAW, 0.0};
   return s;
 }
+
+// LIGGGHTS' own laws, which keep no energy accounts.
+inline bool stock_law() { return settings().law == HERTZ_LAW || settings().law == HOOKE_LAW; }
 
 inline Tally& tally() {
   static Tally t = {};

@@ -1,5 +1,5 @@
-# cases/shearbox and cases/repose through their own command lines, and what is made of their records.
-foreach(name shearbox_run_test repose_run_test drum_run_test)
+# cases/shearbox, cases/repose and cases/drum through their own command lines, and what is made of their records.
+foreach(name shearbox_run_test repose_run_test drum_run_test rig_laws_test)
   vielto_liggghts_test(${name})
   add_dependencies(${name} vielto)
   target_link_libraries(${name} PRIVATE nlohmann_json::nlohmann_json)

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The rigs with LIGGGHTS' own laws, -var law hertz and hooke: a short coarse drum of each, and what they cannot honour.
+#include <nlohmann/json.hpp>
+
+#include "rig_runner.h"
+
+using namespace vielto_test;
+
+namespace {
+
+// Grains of 8 mm turned fast; Hertz' time step follows the overlap limit.
+const std::string coarse =
+    "-var grainDiameter 0.008 -var youngsModulus 2e4 -var wall_youngsModulus 2e4 -var speed 0.5 -var startAngle 40 "
+    "-var frames 3 -var frameAngle 5 -var settleTime 0.2 -var maxOverlap 0.1 ";
+
+class StockDrum : public testing::TestWithParam<const char*> {};
+
+}  // namespace
+
+TEST_P(StockDrum, TurnsABedWithAnAngle) {
+  Rig rig("drum");
+  rig.must("run", coarse, GetParam());
+  const Outcome done = rig.vielto("post run --test coarse");
+  ASSERT_EQ(done.status, 0) << done.text;
+  const auto json = nlohmann::json::parse(rig.read("run/post/drum.json"));
+  EXPECT_GT(json["angle_deg"], 10);
+  EXPECT_LT(json["angle_deg"], 60);
+  EXPECT_NE(rig.read("run/bed_1.csv").find("# dt_over_tc=0.05\n"), std::string::npos);
+}
+
+INSTANTIATE_TEST_SUITE_P(Laws, StockDrum,
+                         testing::Values("-var law hertz ", "-var law hooke ",
+                                         "-var law hooke -var cohesion sjkr2 -var cohesionEnergyDensity 100 "));
+
+struct Refusal {
+  std::string name, rig, option;
+  std::vector<std::string> words;
+};
+void PrintTo(const Refusal& r, std::ostream* out) { *out << r.option; }
+class StockRefuses : public testing::TestWithParam<Refusal> {};
+
+TEST_P(StockRefuses, WithOneLine) {
+  Rig rig(GetParam().rig);
+  expect_refusal(rig.folder / "run", rig.rig("run", "", GetParam().option), GetParam().words);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    BadInput, StockRefuses,
+    testing::Values(
+        Refusal{"Twisting", "drum", "-var law hertz -var twistingResistance 0.2", {"law hertz", "twistingResistance"}},
+        Refusal{
+            "WallTwisting", "shearbox", "-var law hooke -var wall_twistingResistance 0.2", {"wall_twistingResistance"}},
+        Refusal{"Energy", "mixer", "-var law hooke -var energyBalance on", {"law hooke", "energyBalance on"}},
+        Refusal{"Bonds", "repose", "-var law hertz -var bondNewContacts on", {"bondNewContacts on"}},
+        Refusal{"Dashpot", "drum", "-var law hertz -var wall_tangentialDamping 0.3", {"wall_tangentialDamping 0.3"}},
+        Refusal{"NoRestitution", "drum", "-var law hooke -var normalDamping 3", {"normalDamping", "0.69"}},
+        Refusal{"NoLimit", "drum", "-var law hertz -var maxOverlap 0", {"hertz needs a maxOverlap > 0"}},
+        Refusal{"NoSuchLaw", "drum", "-var law hertzian", {"law is 'hertzian'", "vielto, cohfrict, hertz or hooke"}}),
+    [](const auto& one) { return one.param.name; });
