@@ -9,6 +9,7 @@
 #include "atom.h"
 #include "error.h"
 #include "force.h"
+#include "modify.h"
 
 using namespace LAMMPS_NS;
 
@@ -30,6 +31,11 @@ FixViEltoDrag::FixViEltoDrag(LAMMPS* lammps, int narg, char** arg) : Fix(lammps,
   }
   if (narg != 9 || !(scale_ > 0 && diameter_ > 0 && density_ > 0))
     error->fix_error(FLERR, this, "expects 'scale S diameter D density RHO', each > 0");
+}
+
+void FixViEltoDrag::init() {
+  if (modify->n_fixes_style("multisphere") > 0)
+    error->fix_error(FLERR, this, "knows the drag of spheres only, not that of clumps (fix multisphere)");
 }
 
 int FixViEltoDrag::setmask() { return FixConst::POST_FORCE; }

@@ -22,6 +22,7 @@ class FixViEltoDrag : public Fix {
  public:
   FixViEltoDrag(class LAMMPS*, int, char**);
   int setmask() override;
+  void init() override;
   void setup(int vflag) override { post_force(vflag); }
   void post_force(int) override;
 

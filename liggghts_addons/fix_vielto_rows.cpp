@@ -102,6 +102,8 @@ int FixViEltoRows::read_part(int i, int narg, char** arg) {
 int FixViEltoRows::setmask() { return PRE_FORCE | END_OF_STEP; }
 
 void FixViEltoRows::init() {
+  if (modify->n_fixes_style("multisphere") > 0)
+    error->fix_error(FLERR, this, "counts masses and energies grain by grain, which is wrong for clumps (fix multisphere)");
   for (Part& part : parts_)
     for (Mesh& mesh : part.meshes) {
       mesh.fix = dynamic_cast<FixMeshSurface*>(modify->find_fix_id(mesh.id.c_str()));

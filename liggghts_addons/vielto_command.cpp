@@ -26,6 +26,7 @@
 #include "par_file.h"
 #include "universe.h"
 #include "variable.h"
+#include "vielto_clump.h"
 #include "vielto_critical_time.h"
 #include "vielto_state.h"
 #include "vielto_stop.h"
@@ -153,6 +154,8 @@ void ViEltoCommand::command(int narg, char** arg) {
     check(narg, arg);
   else if (what == "provisional" && narg > 2)
     provisional(narg, arg);
+  else if (what == "clump" && narg == 8)
+    clump(narg, arg);
   else if (what == "resume" && narg == 3)
     resume(narg, arg);
   else if (what == "bed" && narg > 3)
@@ -164,7 +167,7 @@ void ViEltoCommand::command(int narg, char** arg) {
   else if (what == "close" && narg == 2)
     close(narg, arg);
   else
-    vielto::stop_all(lmp, "vielto: unknown form of this command; use error, half_period, shell, prime, words, property, pair_property, lacks, check, provisional, grains, open, resume, bed or close");
+    vielto::stop_all(lmp, "vielto: unknown form of this command; use error, half_period, shell, prime, words, property, pair_property, lacks, check, provisional, clump, grains, open, resume, bed or close");
 }
 
 void ViEltoCommand::half_period(int, char** arg) {
@@ -289,6 +292,46 @@ void ViEltoCommand::provisional(int narg, char** arg) {
   stop_if(fault);
   MPI_Bcast(&found, 1, MPI_INT, 0, world);
   set_variable(arg[1], found ? "1" : "0");
+}
+
+void ViEltoCommand::clump(int, char** arg) {
+  const std::string name = arg[1], out = arg[3];
+  if (std::string(arg[4]) != "diameter" || std::string(arg[6]) != "density")
+    vielto::stop_all(lmp, "vielto: write 'vielto clump NAME FILE OUT diameter D density RHO'");
+  const double d = force->numeric(FLERR, arg[5]), density = force->numeric(FLERR, arg[7]);
+  if (!(d > 0 && density > 0)) vielto::stop_all(lmp, "vielto: clump needs a diameter and a density > 0");
+  double smallest = 0;
+  char words[2000] = "";
+  std::string fault;
+  if (comm->me == 0) try {
+      const vielto::Clump shape = vielto::Clump::read(arg[2]).scaled_to(d);
+      std::ofstream file(out);
+      file.precision(12);
+      for (const vielto::ClumpSphere& s : shape.spheres)
+        file << s.x[0] << ' ' << s.x[1] << ' ' << s.x[2] << ' ' << s.r << '\n';
+      file.close();
+      if (!file) fault = "vielto: cannot write " + out;
+      const double mass = density * shape.volume;
+      const auto& I = shape.inertia;
+      // ntry: LIGGGHTS still counts which sphere has which share of the volume, which nothing here uses
+      const int length = snprintf(words, sizeof words,
+               "nspheres %d ntry 100000 spheres file %s scale 1 mass %.12g inertia_tensor %.12g %.12g %.12g %.12g %.12g %.12g "
+               "use_density",
+               static_cast<int>(shape.spheres.size()), out.c_str(), mass, mass * I[0], mass * I[1], mass * I[2], mass * I[3],
+               mass * I[4], mass * I[5]);
+      if (length >= static_cast<int>(sizeof words)) fault = "vielto: the run folder's path is too long: " + out;
+      smallest = shape.smallest();
+    } catch (const vielto::BadInput& e) {
+      fault = std::string("vielto: ") + e.what();
+    }
+  stop_if(fault);
+  MPI_Bcast(words, sizeof words, MPI_CHAR, 0, world);
+  MPI_Bcast(&smallest, 1, MPI_DOUBLE, 0, world);
+  set_variable(arg[1], words);
+  char radius[64];
+  snprintf(radius, sizeof radius, "%.12g", smallest);
+  set_variable(&(name + "Radius")[0], radius);
+  set_variable(&(name + "Spheres")[0], std::string(words).substr(9, std::string(words).find(" ntry") - 9).c_str());
 }
 
 void ViEltoCommand::grains(int narg, char** arg) {

@@ -17,6 +17,11 @@
                                                its parameters (or wall_PARAMETER) has been given a value of another kind: no
                                                number where it states one, none of the words its unit field allows (A, B or C)
      vielto provisional NAME F1 F2 ...         set variable NAME to 1 if a card's first line calls it provisional, else to 0
+     vielto clump NAME FILE OUT diameter D density RHO
+                                               read the spheres of FILE (vielto_clump.h), write them to OUT about their centre of
+                                               mass and with the volume of a sphere of diameter D (m); set variable NAME to the
+                                               words of particletemplate/multisphere for them (nspheres ... use_density), NAMERadius
+                                               to the smallest radius (m), NAMESpheres to their number
      vielto grains FILE [KEY VALUE ...]        write x_m,y_m,z_m,radius_m of every grain of type 1, in the order of their
                                                numbers, under lines # KEY=VALUE
      vielto open FOLDER parameters F1 F2 ... inputs G1 G2 ...
@@ -57,6 +62,7 @@ class ViEltoCommand : protected Pointers {
   void lacks(int narg, char** arg);
   void check(int narg, char** arg);
   void provisional(int narg, char** arg);
+  void clump(int narg, char** arg);
   void set_variable(char* name, const char* value);
   void stop_if(const std::string& faultOnRankZero);
   void grains(int narg, char** arg);

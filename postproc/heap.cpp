@@ -27,6 +27,7 @@ Heap read_heap(const std::string& path) {
   h.wall = keys.text("wall");
   h.provisional = keys.integer("provisional", 0) != 0;
 
+  if (keys.has("spheres_per_grain")) h.spheres_per_grain = keys.integer("spheres_per_grain", 1);
   heap.grains = read_grains(file, path);
   return heap;
 }

@@ -13,6 +13,10 @@ namespace {
 // An observation's u must be above 0; an angle is not known better than this from any heap of grains, deg.
 constexpr double kLeastU = 1e-6;
 
+std::size_t grain_count(const Heap& heap) {
+  return heap.grains.size() / static_cast<std::size_t>(heap.header.spheres_per_grain);
+}
+
 }  // namespace
 
 nlohmann::ordered_json repose_json(const Heap& heap, const ConeFit& f) {
@@ -28,7 +32,7 @@ nlohmann::ordered_json repose_json(const Heap& heap, const ConeFit& f) {
       {"lift_speed_m_s", h.lift_speed},
       {"grain_diameter_m", h.grain_diameter},
       {"youngs_modulus_Pa", h.youngs_modulus},
-      {"grains", heap.grains.size()},
+      {"grains", grain_count(heap)},
       {"rest_time_s", h.rest_time},
       {"angle_deg", f.angle},
       {"angle_u_deg", f.u},
@@ -47,8 +51,9 @@ nlohmann::ordered_json repose_json(const Heap& heap, const ConeFit& f) {
 
 std::string repose_table(const Heap& heap, const ConeFit& f) {
   const HeapHeader& h = heap.header;
-  std::string text = fmt::format("{}{} on {} ({} base), {} grains of {} mm, lifted at {} mm/s, seed {}\n\n", h.material,
-                                 h.provisional ? " (provisional)" : "", h.wall, h.base, heap.grains.size(),
+  std::string text = fmt::format("{}{} on {} ({} base), {} {} of {} mm, lifted at {} mm/s, seed {}\n\n", h.material,
+                                 h.provisional ? " (provisional)" : "", h.wall, h.base, grain_count(heap),
+                                 h.spheres_per_grain > 1 ? fmt::format("clumps of {} spheres, as large as spheres", h.spheres_per_grain) : "grains",
                                  1e3 * h.grain_diameter, 1e3 * h.lift_speed, h.seed);
   text += fmt::format("  {:<44}{:>12}{:>12}  {}\n", "heap", "value", "u (k=1)", "unit");
   const auto line = [&](const std::string& name, double value, const std::string& u, const std::string& unit) {

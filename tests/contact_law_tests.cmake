@@ -24,7 +24,7 @@ foreach(name liggghts_normal_impact_test liggghts_oblique_impact_test
     liggghts_rolling_test liggghts_chung_ooi_test liggghts_conservation_test
     liggghts_wall_motion_test liggghts_record_test liggghts_restart_test
     liggghts_parallel_test liggghts_pair_loop_test liggghts_bodies_test liggghts_bad_input_test
-    liggghts_cohfrict_test liggghts_drag_test liggghts_stock_test)
+    liggghts_cohfrict_test liggghts_drag_test liggghts_stock_test liggghts_clump_test)
   vielto_liggghts_test(${name})
 endforeach()
 
