@@ -39,7 +39,8 @@ Rig Rig::read(const TomlTable& file, const std::string& name, const std::string&
       rig.known.insert(prefix + p.name);
       char* end = nullptr;
       const double value = std::strtod(p.value.c_str(), &end);
-      if (end != p.value.c_str() && *end == '\0') rig.base[prefix + p.name] = value;
+      // as in LIGGGHTS: what the rig states of a card's parameter comes first and holds
+      if (end != p.value.c_str() && *end == '\0') rig.base.emplace(prefix + p.name, value);
     }
   };
   if (const toml::array* files = t.raw()["parameters"].as_array())
