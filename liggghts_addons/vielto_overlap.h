@@ -11,6 +11,7 @@
 #include "contact_interface.h"
 #include "fix_mesh_surface.h"
 #include "force.h"
+#include "modify.h"
 #include "tri_mesh.h"
 #include "update.h"
 #include "vielto_state.h"
@@ -57,14 +58,16 @@ struct OverlapWatch {
     else
       snprintf(partner, sizeof partner, "a primitive wall");
     const double* x = lmp->atom->x[sidata.i];
-    char line[512];
+    // of a clump that leaves the box, LIGGGHTS gives up the body and keeps the other spheres, which overlap
+    const char* const clumps = lmp->modify->n_fixes_style("multisphere") > 0 ? "a clump has left the box, or " : "";
+    char line[600];
     snprintf(line, sizeof line,
              "vielto: step " BIGINT_FORMAT
              ": overlap of grain %d at (%.4g %.4g %.4g) m with %s is %.3g %% of the diameter, "
-             "over the limit of %.3g %% (maxOverlap); the grain is wedged or too soft: raise youngsModulus, or look at "
+             "over the limit of %.3g %% (maxOverlap); %sthe grain is wedged or too soft: raise youngsModulus, or look at "
              "this place",
              lmp->update->ntimestep, lmp->atom->tag[sidata.i], x[0], x[1], x[2], partner, 100 * tally().overlapMax,
-             100 * limit);
+             100 * limit, clumps);
     stop_here(lmp, line);
   }
 };

@@ -187,10 +187,11 @@ TEST(Clump, InOurPairLoopHasTheNumbersOfLiggghts) {
                             "c_sum\nthermo 1\n" : "") + dump_grains("states", 500) + "run 10000\n";
     run.must();
     states[general] = run.read("states");
-    const Table end = run.dump("states").back();
-    ASSERT_EQ(end.rows.size(), 36u);
+    const std::vector<Table> frames = run.dump("states");
     int touching = 0;
-    for (std::size_t s = 0; s < 36; s++) touching += end.f(s).norm() > 0;
+    for (const Table& frame : frames)
+      for (std::size_t s = 0; s < frame.rows.size(); s++) touching += frame.f(s).norm() > 0;
+    EXPECT_EQ(frames.back().rows.size(), 36u);
     EXPECT_GT(touching, 12);
   }
   EXPECT_EQ(states[0], states[1]);
@@ -237,6 +238,31 @@ TEST(ClumpCommand, GivesVolumeMassAndInertiaOfTheUnion) {
   rows >> x >> y >> z >> radius;
   EXPECT_NEAR(y, -scale * d / 2, 1e-4 * scale);
   EXPECT_LT(std::fabs(x) + std::fabs(z), 1e-9);
+}
+
+// The spheres of a shipped clump span the dimensions of its card, by the rule stated in the file.
+struct Span {
+  std::string grain;
+  double length, width, thickness;  // m, of the spheres
+};
+
+TEST(ClumpFiles, SpanTheirCardsDimensions) {
+  // corn: the wedge itself. barley: to the ends of the last spheres, at 0.8 sqrt(a^2 - b^2) with r = 0.6 b; the middle pair's
+  // width; twice the radius of the spheres beside it, at half that distance.
+  const double a = 0.00891 / 2, b = std::sqrt(0.00330 * 0.00258) / 2;
+  for (const Span& span : {Span{"fodder_corn", 0.01054, 0.00726, 0.00457},
+                           Span{"hulled_barley", 2 * (0.8 * std::sqrt(a * a - b * b) + 0.6 * b), 0.00330, 2 * b * std::sqrt(1 - 0.16)}}) {
+    std::ifstream in(fmt::format("{}/materials/{}.clump", VIELTO_SOURCE_DIR, span.grain));
+    Vec low = Vec::Constant(1), high = -low;
+    for (std::string line; std::getline(in, line);) {
+      Vec x;
+      double r;
+      if (line[0] == '#' || std::sscanf(line.c_str(), "%lf %lf %lf %lf", &x[0], &x[1], &x[2], &r) != 4) continue;
+      low = low.cwiseMin(x - Vec::Constant(r)), high = high.cwiseMax(x + Vec::Constant(r));
+    }
+    // digits of the file
+    EXPECT_LT((high - low - Vec(span.length, span.width, span.thickness)).norm(), 2e-7) << span.grain;
+  }
 }
 
 struct Fault {

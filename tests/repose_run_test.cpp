@@ -41,6 +41,25 @@ TEST(ReposeRun, LeavesAHeapOfAllGrainsWithAnAngle) {
   EXPECT_NE(rig.read("run/post/observations.csv").find("coarse,fit,repose,angle,"), std::string::npos);
 }
 
+// As many clumps as spheres of the same volume and mass, each of five spheres; their number, not that of the spheres, is told.
+TEST(ReposeRun, TakesClumps) {
+  Rig rig("repose");
+  const std::string corn = "-var grain fodder_corn -var fillHeight 0.03 ";
+  rig.must("clumps", coarse_heap, corn + "-var clump yes");
+  rig.must("spheres", coarse_heap, corn);
+  const Table clumps = rig.csv("clumps/heap.csv"), spheres = rig.csv("spheres/heap.csv");
+  EXPECT_EQ(clumps.rows.size(), 5 * spheres.rows.size());
+  for (std::size_t k = 0; k < clumps.rows.size(); k++)
+    EXPECT_GT(clumps.at(k, "z_m"), 0.7 * clumps.at(k, "radius_m"));
+  const auto run = nlohmann::json::parse(rig.read("clumps/run.json"));
+  EXPECT_EQ(run["parameters"]["rollingResistance"], "0");
+  EXPECT_TRUE(run["hashes"].contains("fodder_corn.clump"));
+  EXPECT_FALSE(nlohmann::json::parse(rig.read("spheres/run.json"))["hashes"].contains("fodder_corn.clump"));
+  const Outcome done = rig.vielto("post clumps --test coarse");
+  ASSERT_EQ(done.status, 0) << done.text;
+  EXPECT_EQ(nlohmann::json::parse(rig.read("clumps/post/repose.json"))["grains"], spheres.rows.size());
+}
+
 TEST(ReposeRun, IsDecidedByItsSeed) {
   Rig rig("repose");
   const std::string small = "-var fillHeight 0.02 ";
@@ -89,5 +108,10 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"TimeStepOverLimit", "-var dtFraction 0.06", {"dtFraction is 0.06", "0.05"}},
         Refusal{"MisspelledParameter", "-var liftspeed 1", {"-var liftspeed", "no such parameter"}},
         Refusal{"BaseTooSmall", "-var baseWidth 0.04", {"vielto geometry", "failed"}},
+        Refusal{"NoClump", "-var clump yes", {"hulled_millet.clump", "missing"}},
+        Refusal{"UnknownShape", "-var clump maybe", {"clump is 'maybe'", "no or yes"}},
+        Refusal{"ClumpsInAir", "-var grain fodder_corn -var clump yes -var airDrag 1", {"airDrag is 1", "clump no"}},
+        Refusal{"ClumpsOfCohFrict", "-var grain fodder_corn -var clump yes -var law cohfrict", {"law vielto", "clump no"}},
+        Refusal{"ClumpsWithRollingDashpot", "-var grain fodder_corn -var clump yes -var rollingDashpot on", {"rollingDashpot", "clump no"}},
         Refusal{"NeverAtRest", "-var restDistance 1e-12 -var mostTime 0.15", {"not at rest", "mostTime"}}),
     [](const auto& one) { return one.param.name; });
