@@ -72,7 +72,7 @@ TEST_F(GapCommand, DiagnosesAKnownEffectAndWritesTheProtocolsKeys) {
   EXPECT_TRUE(d["probabilities"].contains("unknown"));
   EXPECT_TRUE(d["probabilities"].contains("cohesion+shape"));
   const json& s = d["strength"]["cohesion"];
-  EXPECT_EQ(s["unit"], "J/m3");
+  EXPECT_EQ(s["unit"], "Pa");
   EXPECT_LT(s["low90"], s["value"]);
   EXPECT_LT(s["value"], s["high90"]);
   EXPECT_EQ(d["effects"][0]["name"], "cohesion");
@@ -232,7 +232,7 @@ TEST_F(GapCommand, RefusesEffectsAndSettingsWithOneClearLine) {
   };
   with_effect("name = \"cohesion\"", "name = \"glue\"", "column name: 'glue' is not the file's name");
   with_effect("kind = \"dem\"", "kind = \"magic\"", "column kind: 'magic' is no kind");
-  with_effect("prior_high = 60000.0", "prior_high = \"many\"", "column prior_high: is not a finite number");
+  with_effect("prior_high = 300.0", "prior_high = \"many\"", "column prior_high: is not a finite number");
   with_effect("prior_low = 0.0", "prior_low = 1.0", "column prior_low: 1 is out of range");
   with_effect("unit = ", "units = ", "column units: is no key here");
   with_effect("rule = \"value\"", "rule = \"times\"", "column rule: 'times' is none of its values");
