@@ -6,6 +6,9 @@
                              on: -2 beta_s sqrt(k_r I_eff) w_r while the rolling spring is not capped, and the like for
                              twisting with k_tw; I_eff = I_1 I_2/(I_1 + I_2), I = 2/5 m R^2 (wall: I_1)
 
+     wallRolling VALUE       0 (as printed: the smaller mu_r of both bodies); else what walls add to it: a flat grain that
+                             lies on a wall does not roll as it does on its like
+
    History, per contact: rolling moment on body i (3 values, N m) and twisting moment along n (1 value, N m).
    On a mesh wall the couples are handed to the mesh's torque sum. Needs `model vielto`. */
 #ifdef ROLLING_MODEL
@@ -18,6 +21,7 @@ ROLLING_MODEL(ROLLING_VIELTO, vielto, 20)
 #include "rolling_model_base.h"
 #include "vielto_properties.h"
 #include "vielto_state.h"
+#include "vielto_stop.h"
 #include "vielto_wall_motion.h"
 
 namespace LIGGGHTS {
@@ -30,6 +34,7 @@ class RollingModel<ROLLING_VIELTO> : public RollingModelBase {
       : RollingModelBase(lmp, hsetup, c),
         rollingDashpot_(false),
         wallRadiusFactor_(2.0),
+        wallRolling_(0.0),
         tally_(vielto::tally()),
         wall_(lmp) {
     offset_ = hsetup->add_history_value("vielto_Mrx", "1");
@@ -42,9 +47,12 @@ class RollingModel<ROLLING_VIELTO> : public RollingModelBase {
   void registerSettings(::Settings& settings) {
     settings.registerOnOff("rollingDashpot", rollingDashpot_, false);
     settings.registerDoubleSetting("wallRadiusFactor", wallRadiusFactor_, 2.0);
+    settings.registerDoubleSetting("wallRolling", wallRolling_, 0.0);
   }
 
-  void postSettings(IContactHistorySetup*, ContactModelBase*) {}
+  void postSettings(IContactHistorySetup*, ContactModelBase*) {
+    if (!(wallRolling_ >= 0)) vielto::stop_all(lmp, "vielto: wallRolling must be >= 0 (0: as printed)");
+  }
 
   void connectToProperties(PropertyRegistry&) { pairs_.read(lmp); }
 
@@ -68,7 +76,7 @@ class RollingModel<ROLLING_VIELTO> : public RollingModelBase {
     const double kr = vielto::rolling_stiffness(pair, sidata.kn, R1, R2);
     const double ktw = vielto::twisting_stiffness(pair, sidata.kt, R1, R2);
     const double force_length = sidata.Fn > 0 ? sidata.Fn * vielto::rolling_length(R1, R2) : 0.0;
-    const double limitR = pair.muR * force_length;
+    const double limitR = (sidata.is_wall ? pair.muR + wallRolling_ : pair.muR) * force_length;
     const double limitTw = pair.muTwTanPhi * force_length;
     const double dt = update->dt;
 
@@ -146,7 +154,7 @@ class RollingModel<ROLLING_VIELTO> : public RollingModelBase {
 
   int offset_;
   bool rollingDashpot_;
-  double wallRadiusFactor_;
+  double wallRadiusFactor_, wallRolling_;
   vielto::PairTable pairs_;
   vielto::Tally& tally_;
   vielto::WallMotion wall_;

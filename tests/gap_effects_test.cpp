@@ -26,7 +26,7 @@ TEST(GapEffects, AllOfTheProtocol) {
   }
   EXPECT_EQ(names,
             (std::set<std::string>{"cohesion", "shape", "wall_friction", "size_spread", "dissipation", "air_drag",
-                                   "paddle_clearance", "drive_loss", "idle_drift", "speed_slip", "fill_error",
+                                   "paddle_clearance", "wall_rolling", "drive_loss", "idle_drift", "speed_slip", "fill_error",
                                    "sensor_gain", "coarse_grain", "soft_grain", "slice_ends", "faceting"}));
 }
 

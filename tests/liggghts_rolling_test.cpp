@@ -66,6 +66,36 @@ INSTANTIATE_TEST_SUITE_P(Walls, RollingSphere,
                          testing::Combine(testing::Values(Wall::primitive, Wall::mesh), testing::Values(1.0, 2.0, 5.0),
                                           testing::Values(0.1, 0.3)));
 
+// wallRolling adds to mu_r on walls: the sphere slows down as if both made one resistance. Two spheres know nothing of it.
+TEST(WallRolling, AddsToTheResistanceOfWallsOnly) {
+  Material m;
+  m.rollingResistance = 0.1;
+  const double v0 = 0.4, factor = 2, a = 5.0 / 7 * (0.1 + 0.2) * g * rolling_length(factor) / R;
+  const long half = std::lround(0.4 * v0 / a / dt);
+  for (const Wall wall : {Wall::primitive, Wall::mesh}) {
+    Liggghts run;
+    run.script = sphere_on_plane(run, {1, R, 1375, {-0.1, 0.01, 0}, {v0, 0, 0}, {0, v0 / R, 0}}, m,
+                                 "wallRadiusFactor 2 wallRolling 0.2", wall, factor) +
+                 level_gravity() + dump_grains("states", half) + fmt::format("run {}\n", 2 * half);
+    run.must();
+    const std::vector<Table> frames = run.dump("states");
+    ASSERT_EQ(frames.size(), 3u);
+    EXPECT_NEAR((frames[2].v(0)[0] - frames[1].v(0)[0]) / (static_cast<double>(half) * dt) / -a, 1, 1e-6);
+  }
+  const auto met = [&](const std::string& settings) {
+    Liggghts run;
+    const std::vector<Sphere> spheres = {{1, R, 1375, {0, 0, 0}, {0.2, 0, 0}, {30, 0, 20}},
+                                         {1, R, 1375, {2 * R + 1e-5, 0.001, 0}, {-0.2, 0, 0}, {0, 40, -10}}};
+    run.script = head(run, spheres, {m}, 0.3, settings) + fmt::format("timestep {}\nfix move all nve/sphere\n", dt) +
+                 dump_grains("states", 200) + "run 200\n";
+    run.must();
+    return run.dump("states").back();
+  };
+  const Table with = met("wallRolling 0.2"), without = met("");
+  for (std::size_t i = 0; i < 2; i++) EXPECT_EQ((with.w(i) - without.w(i)).norm(), 0);
+  EXPECT_GT((with.w(0) - Vec(30, 0, 20)).norm(), 1);
+}
+
 /* Spinning about the normal: I dw/dt = -mu_tw tan(phi') m g L, so dw/dt = -(5/2) mu_tw tan(phi') g L/R^2; the sphere
    stays where it is. */
 TEST(SpinningSphere, SlowsDownAtTheCappedTwistingMoment) {
