@@ -43,6 +43,8 @@ std::vector<NextTest> next_tests(const Inputs& inputs, const ReducedTable& fit, 
   }
   std::vector<NextTest> tests;
   if (open.size() < 2) return tests;
+  std::vector<std::string> left_out;
+  std::string reason;
   for (const CandidateTest& test : read_candidate_tests(candidates)) {
     try {
       const Observation& like = fit.rows.front();
@@ -65,9 +67,12 @@ std::vector<NextTest> next_tests(const Inputs& inputs, const ReducedTable& fit, 
       else
         notes.push_back(fmt::format("next test {}: the library lacks runs for it", test.name));
     } catch (const BadInput& error) {
-      notes.push_back(fmt::format("next test {} is left out: {}", test.name, error.what()));
+      if (left_out.empty()) reason = error.what();
+      left_out.push_back(test.name);
     }
   }
+  if (!left_out.empty())
+    notes.push_back(fmt::format("next tests left out: {}; the first because {}", fmt::join(left_out, ", "), reason));
   std::sort(tests.begin(), tests.end(),
             [](const NextTest& a, const NextTest& b) { return a.gain_per_hour > b.gain_per_hour; });
   return tests;

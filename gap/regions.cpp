@@ -9,6 +9,8 @@
 #include <numeric>
 #include <set>
 
+#include "condition.h"
+
 namespace vielto::gap {
 namespace {
 
@@ -33,8 +35,12 @@ std::map<double, int> thirds(const std::vector<Observation>& rows, std::optional
 
 std::vector<Region> regions_of(const std::vector<Observation>& rows) {
   const char* const speed_names[] = {"slow", "middle speed", "fast"};
+  const char* const third_names[] = {"low", "middle", "high"};
   const char* const fill_names[] = {"low fill", "middle fill", "high fill"};
   const auto speeds = thirds(rows, &Observation::speed), fills = thirds(rows, &Observation::fill);
+  std::map<std::string, std::map<double, int>> others;  // tilt, normal_stress ...
+  for (const NamedCondition& c : kConditions)
+    if (c.member != &Observation::speed && c.member != &Observation::fill) others[c.name] = thirds(rows, c.member);
   std::map<std::pair<std::string, std::string>, std::map<std::string, std::vector<Index>>> found;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     auto& regions = found[{rows[i].apparatus, rows[i].observable}];
@@ -42,6 +48,9 @@ std::vector<Region> regions_of(const std::vector<Observation>& rows) {
     regions["all"].push_back(index);
     if (rows[i].speed && speeds.count(*rows[i].speed)) regions[speed_names[speeds.at(*rows[i].speed)]].push_back(index);
     if (rows[i].fill && fills.count(*rows[i].fill)) regions[fill_names[fills.at(*rows[i].fill)]].push_back(index);
+    for (const auto& [name, parts] : others)
+      if (const auto value = rows[i].*condition_member(name); value && parts.count(*value))
+        regions[fmt::format("{} {}", third_names[parts.at(*value)], name)].push_back(index);
   }
   std::vector<Region> result;
   for (const auto& [name, regions] : found)

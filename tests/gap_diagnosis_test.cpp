@@ -195,4 +195,18 @@ TEST_F(GapDiagnosis, ShrinkByHand) {
   EXPECT_NEAR(shrink_of(all(1), all(0.06), all(1.1), all(1.1), all(1.1), all(1.1), 5).before, 0.08, 1e-9);
 }
 
+// A drum at two tilts has a region for each, since the gap may lie in one of them only.
+TEST(GapRegions, OtherConditionsHaveTheirsToo) {
+  std::vector<Observation> rows(4);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    rows[i].apparatus = "drum";
+    rows[i].observable = "angle";
+    rows[i].speed = 0.083;
+    rows[i].tilt = i == 1 ? 0 : 45;
+  }
+  std::map<std::string, std::size_t> sizes;
+  for (const Region& r : regions_of(rows)) sizes[r.region] = r.rows.size();
+  EXPECT_EQ(sizes, (std::map<std::string, std::size_t>{{"all", 4}, {"low tilt", 1}, {"high tilt", 3}}));
+}
+
 }  // namespace

@@ -85,6 +85,7 @@ class Portion(unittest.TestCase):
         self.finish("all", self.runs)
         self.collect("all")
         whole = self.library()
+        self.assertNotIn("sources.csv", whole)  # the parts of a mixer; a drum has none
         for path in (self.folder / "gap/library").glob("*.csv"):
             path.unlink()
         self.finish("first", self.runs[:12]), self.finish("second", self.runs[12:])
