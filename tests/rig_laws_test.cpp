@@ -15,8 +15,7 @@ class StockDrum : public testing::TestWithParam<const char*> {};
 
 }  // namespace
 
-/* The bed keeps its grains within the drum and is carried up on the side of positive y (drum_run_test.cpp). The angle
-   that `vielto post` makes needs finer grains than a test has time for. */
+/* The bed keeps its grains within the drum and is carried up on the side of positive y (drum_run_test.cpp). */
 TEST_P(StockDrum, CarriesTheBedUp) {
   Rig rig("drum");
   rig.must("run", coarse, GetParam());
