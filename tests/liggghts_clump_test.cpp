@@ -170,18 +170,20 @@ TEST(Clump, OfOneSphereIsThatSphere) {
   }
 }
 
-/* Twelve clumps thrown onto a plate, through our loop over pairs and through LIGGGHTS' own (a stress in every row of the log
+/* Twelve clumps thrown into a tray, through our loop over pairs and through LIGGGHTS' own (a stress in every row of the log
    makes it ask for the virial, which ours leaves to it). */
 TEST(Clump, InOurPairLoopHasTheNumbersOfLiggghts) {
   std::string states[2];
   for (const bool general : {false, true}) {
     Liggghts run;
-    std::string put = insert(run, Body(), "clump", {0, 0, 0.025}, {0, 0, -0.5}, Vec::Zero(), "random", 1);
-    put.replace(put.find("1e-6 units"), 4, "0.02");
+    std::string put = insert(run, Body(), "clump", {0, 0, 0.02}, {0, 0, -0.5}, Vec::Zero(), "random", 1);
+    put.replace(put.find("1e-6 units"), 4, "0.012");
     put.replace(put.find("overlapcheck no"), 15, "overlapcheck yes");
     put.replace(put.find("in_region 1\n"), 12, "in_region 12\n");
     put.replace(put.find("maxattempt 10 "), 14, "maxattempt 1000 ");
-    run.script = box(Material()) + plate(run) + put + "fix down all gravity 9.81 vector 0 0 -1\n" +
+    const std::string walls = plate(run);
+    run.write("plate.stl", tray_stl(0.02));
+    run.script = box(Material()) + walls + put + "fix down all gravity 9.81 vector 0 0 -1\n" +
                  "timestep 5e-6\nrun 1\nreset_timestep 0\n" +
                  (general ? "compute stress all stress/atom\ncompute sum all reduce sum c_stress[1]\nthermo_style custom step "
                             "c_sum\nthermo 1\n" : "") + dump_grains("states", 500) + "run 10000\n";
