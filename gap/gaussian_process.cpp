@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <utility>
 
 namespace vielto::gap {
 namespace {
@@ -29,8 +30,10 @@ double GaussianProcess::Kernel::operator()(const Point& p, const Point& q) const
     const double zz = p.z.dot(q.z);
     return (a * a * zz + quadratic * quadratic * zz * zz) * over_conditions;
   }
+  // 1 at the end of the range whatever the saturation
+  const auto amount = [&](double t) { return saturation > 0 ? t * (1 + saturation) / (std::fabs(t) + saturation) : t; };
   const double dt = (p.t - q.t) / length_t;
-  return a * a * p.t * q.t * std::exp(-dt * dt / 2) * over_conditions;
+  return a * a * amount(p.t) * amount(q.t) * std::exp(-dt * dt / 2) * over_conditions;
 }
 
 GaussianProcess::GaussianProcess(Form form, std::vector<Point> points, const VectorXd& values, const MatrixXd& noise)
@@ -78,10 +81,11 @@ GaussianProcess::GaussianProcess(Form form, std::vector<Point> points, const Vec
           }
   } else {
     for (const double a : {0.03, 0.1, 0.3, 1.0, 3.0})
-      for (const double length_t : {0.7, 2.0})
+      for (const auto& [saturation, length_t] : {std::pair(0.0, 0.7), {0.0, 2.0}, {0.3, 2.0}, {0.1, 2.0}})
         for (const double common : {0.1, 0.5, 0.9})
           for (const double length : {0.35, 0.7, 1.4}) {
             kernel.a = a * spread;
+            kernel.saturation = saturation;
             kernel.length_t = length_t;
             kernel.common = common;
             kernel.length = length;

@@ -6,11 +6,12 @@
 // with the noise covariance N of the values v known. A point is (t, c): t the strength over the largest one in the
 // prior range, c the conditions in units of the library's range. Two kernels:
 //   level     V (1 + c.c') + a^2 exp(-|c-c'|^2 / 2 l^2)   after the mean of v is taken out; V = (10 spread)^2: a free
-//   plane response  a^2 t t' exp(-(t-t')^2 / 2 l_t^2) (w + (1-w) exp(-|c-c'|^2 / 2 l^2)):  0 at t = 0, nearly linear
-//   for large l_t parameters  (a^2 z.z' + q^2 (z.z')^2) (w + (1-w) exp(-|c-c'|^2 / 2 l^2)):  linear (and quadratic for
+//   plane response  a^2 f(t) f(t') exp(-(t-t')^2 / 2 l_t^2) (w + (1-w) exp(-|c-c'|^2 / 2 l^2)):  0 at t = 0; f(t) = t, so
+//   that it is nearly linear for large l_t, or f(t) = t (1+b)/(|t|+b), an effect that saturates beyond t = b
+//   parameters  (a^2 z.z' + q^2 (z.z')^2) (w + (1-w) exp(-|c-c'|^2 / 2 l^2)):  linear (and quadratic for
 //   q > 0) in z, the
 //             calibrated parameters' distance from the baseline's in units of their spread
-// a, q, l, l_t, w: the most probable (2.30) of a fixed grid; a redrawn library keeps them.
+// a, b, q, l, l_t, w: the most probable (2.30) of a fixed grid; a redrawn library keeps them.
 #pragma once
 
 #include <Eigen/Dense>
@@ -28,7 +29,7 @@ class GaussianProcess {
   enum class Form { level, response, parameters };
   struct Kernel {
     Form form = Form::level;
-    double plane = 0, a = 0, length = 1, length_t = 1, common = 0, quadratic = 0;
+    double plane = 0, a = 0, saturation = 0, length = 1, length_t = 1, common = 0, quadratic = 0;
     double operator()(const Point& p, const Point& q) const;
   };
   struct Prediction {
