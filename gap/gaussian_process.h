@@ -6,8 +6,8 @@
 // with the noise covariance N of the values v known. A point is (t, c): t the strength over the largest one in the
 // prior range, c the conditions in units of the library's range. Two kernels:
 //   level     V (1 + c.c') + a^2 exp(-|c-c'|^2 / 2 l^2)   after the mean of v is taken out; V = (10 spread)^2: a free
-//   plane response  a^2 f(t) f(t') exp(-(t-t')^2 / 2 l_t^2) (w + (1-w) exp(-|c-c'|^2 / 2 l^2)):  0 at t = 0; f(t) = t, so
-//   that it is nearly linear for large l_t, or f(t) = t (1+b)/(|t|+b), an effect that saturates beyond t = b
+//   plane response  a^2 f(t) f(t') exp(-(t-t')^2 / 2 l_t^2) (w + (1-w) exp(-|c-c'|^2 / 2 l^2)):  0 at t = 0; f(t) = t,
+//   so that it is nearly linear for large l_t, or f(t) = t (1+b)/(|t|+b), an effect that saturates beyond t = b
 //   parameters  (a^2 z.z' + q^2 (z.z')^2) (w + (1-w) exp(-|c-c'|^2 / 2 l^2)):  linear (and quadratic for
 //   q > 0) in z, the
 //             calibrated parameters' distance from the baseline's in units of their spread

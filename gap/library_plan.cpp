@@ -300,7 +300,8 @@ Collected collect_library(const LibraryPlan& plan, const std::string& results, c
   const auto path = [&](const char* name) { return (fs::path(folder) / name).string(); };
   write_whole_file(path("design.csv"), design);
   write_observations(path("observations.csv"), rows);
-  if (sources.find('\n') + 1 < sources.size()) write_whole_file(path("sources.csv"), sources);  // the mixer's parts only
+  if (sources.find('\n') + 1 < sources.size())
+    write_whole_file(path("sources.csv"), sources);  // the mixer's parts only
   if (!plan.bench.empty()) write_observations(path("bench.csv"), plan.bench);
   if (!plan.family_file.empty()) {
     fs::copy_file(plan.family_file, path("posterior.csv"), fs::copy_options::overwrite_existing);

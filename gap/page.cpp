@@ -85,7 +85,7 @@ std::string ranking(const json& probabilities) {
   return "<table>" + rows + "</table>\n";
 }
 
-std::string before_and_after(const json& shrink, const std::string& how) {
+std::string before_and_after(const json& shrink, const std::string& how, bool effect_known) {
   const double full = std::max({shrink["before"].get<double>(), shrink["recalibrated"].get<double>(),
                                 shrink["after"].get<double>(), shrink["placebo"].get<double>(), 1e-9});
   std::string rows;
@@ -96,6 +96,7 @@ std::string before_and_after(const json& shrink, const std::string& how) {
                                   {"after", "with the effect"},
                                   {"placebo", "placebo (" + placebo + ")"}}) {
     if (key == std::string("placebo") && placebo.empty()) continue;
+    if (key == std::string("after") && !effect_known) continue;  // an unknown effect cannot be added
     rows += fmt::format("<tr><td>{}</td><td>{}</td><td class=n>{:.1f} %</td></tr>\n", escaped(name),
                         bar(shrink[key].get<double>() / full, "#27866a"), 100 * shrink[key].get<double>());
   }
@@ -124,9 +125,9 @@ std::string diagnosis_page(const json& d, const std::string& title) {
   page += "<h2>Where</h2>\n" + map_of_the_gap(d["where"]);
   page += "<h2>Which effect</h2>\n" + ranking(d["probabilities"]);
   page += "<h2>How far the gap closes</h2>\n";
-  if (!d["shrink"].is_null()) page += before_and_after(d["shrink"], "simulated again");
+  if (!d["shrink"].is_null()) page += before_and_after(d["shrink"], "simulated again", d["verdict"] != "unknown");
   if (!d["shrink_predicted"].is_null())
-    page += before_and_after(d["shrink_predicted"], "predicted by the emulator, no proof");
+    page += before_and_after(d["shrink_predicted"], "predicted by the emulator, no proof", true);
   if (d["shrink"].is_null() && d["shrink_predicted"].is_null())
     page += "<p>Not asked: no effect was named, or there are no check tests.</p>\n";
   page += "<h2>Next test</h2>\n";
@@ -134,7 +135,7 @@ std::string diagnosis_page(const json& d, const std::string& title) {
     page += "<p>None is needed to tell effects apart.</p>\n";
   else
     page += fmt::format(
-        "<p><b>{}</b> ({}): separates {}; from {:.1f} to {:.1f} standard deviations in {:g} hours.</p>\n",
+        "<p><b>{}</b> ({}): separates {}; from {:.1f} to {:.1f} standard deviations in {:g} h.</p>\n",
         escaped(d["next_test"]["name"].get<std::string>()), escaped(d["next_test"]["how"].get<std::string>()),
         escaped(d["next_test"]["separates"].get<std::string>()), d["next_test"]["separation_now"].get<double>(),
         d["next_test"]["separation"].get<double>(), d["next_test"]["hours"].get<double>());

@@ -2,8 +2,8 @@
 // Purpose: where the simulation departs from the measurement, with a false-discovery rate over the regions.
 //
 // Regions: every observable of an apparatus as a whole, and by thirds of the table's speeds and fills ("slow, middle,
-// fast", "low, middle, high fill") and likewise of its other conditions ("high tilt") where it has more than one. In a region the mean relative gap by generalised least
-// squares,
+// fast", "low, middle, high fill") and likewise of its other conditions ("high tilt") where it has more than one. In a
+// region the mean relative gap by generalised least squares,
 //   m = (1' V^-1 g)/(1' V^-1 1), z = m sqrt(1' V^-1 1),
 // g the relative gap of its rows, V its covariance without any effect. p = 2 (1 - Phi(|z|)).
 // q value: Benjamini and Hochberg 1995 if the z's are independent, Benjamini and Yekutieli 2001 (factor sum 1/i) if any

@@ -6,13 +6,14 @@
      F_a = eps/(1 - eps) sigma_t d_1^2     of a grain and a wall
 
    Source: Rumpf's strength of a bed of equal spheres, sigma_t = (1 - eps)/eps F/d^2 (H. Rumpf, 1970, Chem. Ing. Tech.
-   42:538), turned round at the porosity eps = 0.4. Because F goes as d^2, a bed of coarser grains has the same strength.
+   42:538), turned round at the porosity eps = 0.4. Because F goes as d^2, a bed of coarser grains has the same
+   strength.
 
    Why not sjkr or sjkr2: their pull is proportional to the overlap, as ViElTo's spring is. Together they are a weaker
    spring, which attracts at no overlap at all below an energy density of 8 E/(2 pi) (equal spheres, springFactor 4).
 
-   Acts along the normal while the surfaces overlap; does not enter the friction cap itself, but the spring that bears it does
-   (Thornton 1991, J. Phys. D 24:1942). The overlap of two grains at rest is F_a/(c_n k_n).
+   Acts along the normal while the surfaces overlap; does not enter the friction cap itself, but the spring that bears
+   it does (Thornton 1991, J. Phys. D 24:1942). The overlap of two grains at rest is F_a/(c_n k_n).
 
    Property: fix adhesionStrength all property/global adhesionStrength scalar SIGMA_T, Pa, >= 0. */
 #ifdef COHESION_MODEL

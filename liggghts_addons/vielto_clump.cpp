@@ -88,7 +88,8 @@ Clump Clump::scaled_to(double d) const {
 
 Clump Clump::read(const std::string& path) {
   std::ifstream in(path);
-  if (!in) throw BadInput(path, 0, "this clump cannot be read", "give the grain a file of spheres, or run with -var clump no");
+  if (!in)
+    throw BadInput(path, 0, "this clump cannot be read", "give the grain a file of spheres, or run with -var clump no");
   Clump clump;
   std::string line;
   for (int number = 1; std::getline(in, line); ++number) {

@@ -61,13 +61,14 @@ struct OverlapWatch {
     // of a clump that leaves the box, LIGGGHTS gives up the body and keeps the other spheres, which overlap
     const char* const clumps = lmp->modify->n_fixes_style("multisphere") > 0 ? "a clump has left the box, or " : "";
     char line[600];
-    snprintf(line, sizeof line,
-             "vielto: step " BIGINT_FORMAT
-             ": overlap of grain %d at (%.4g %.4g %.4g) m with %s is %.3g %% of the diameter, "
-             "over the limit of %.3g %% (maxOverlap); %sthe grain is wedged or too soft: raise youngsModulus, or look at "
-             "this place",
-             lmp->update->ntimestep, lmp->atom->tag[sidata.i], x[0], x[1], x[2], partner, 100 * tally().overlapMax,
-             100 * limit, clumps);
+    snprintf(
+        line, sizeof line,
+        "vielto: step " BIGINT_FORMAT
+        ": overlap of grain %d at (%.4g %.4g %.4g) m with %s is %.3g %% of the diameter, "
+        "over the limit of %.3g %% (maxOverlap); %sthe grain is wedged or too soft: raise youngsModulus, or look at "
+        "this place",
+        lmp->update->ntimestep, lmp->atom->tag[sidata.i], x[0], x[1], x[2], partner, 100 * tally().overlapMax,
+        100 * limit, clumps);
     stop_here(lmp, line);
   }
 };

@@ -5,8 +5,8 @@
 //
 // Angle: the slope of the straight line through the free surface seen along the axis, in the plane across it
 // (drum_surface_angle in bed_shape.h), over the grains of the whole drum where the axis lies level, and of
-// those that show through the lower end face (centre within kEndDiameters grain diameters of x = 0) where it is tilted. Its mean over the looks, u
-// with the autocorrelated scatter over time (over_time).
+// those that show through the lower end face (centre within kEndDiameters grain diameters of x = 0) where it is tilted.
+// Its mean over the looks, u with the autocorrelated scatter over time (over_time).
 //
 // Errors: BadInput as record_file.h, for looks that are not all there or of different runs, and for a surface of less
 // than four strips.

@@ -110,7 +110,8 @@ Estimate drum_surface_angle(const std::vector<Grain>& grains, double drum_radius
   double y = 0, z = 0;
   for (const Grain& g : grains) y += g.x[1], z += g.x[2];
   const double from_axis = std::hypot(y, z);
-  if (!(from_axis > 0)) throw std::invalid_argument("the bed lies evenly about the drum's axis, it has no free surface");
+  if (!(from_axis > 0))
+    throw std::invalid_argument("the bed lies evenly about the drum's axis, it has no free surface");
   // unit vectors from the bed through the axis, and along the chord
   const double up[2] = {-y / from_axis, -z / from_axis}, along[2] = {up[1], -up[0]};
   std::vector<Top> tops;

@@ -12,8 +12,8 @@
 // in it; an overlap counts twice, as the grains' mass does). Its standard error is the scatter of the box's eighths
 // over sqrt(8). The box should lie inside the bed, a few grains off walls and surface.
 //
-// Errors: std::invalid_argument saying what is wrong: fewer than four strips that hold grains, no grain in an eighth, a bed
-// evenly about the drum's axis.
+// Errors: std::invalid_argument saying what is wrong: fewer than four strips that hold grains, no grain in an eighth, a
+// bed evenly about the drum's axis.
 #pragma once
 
 #include <array>

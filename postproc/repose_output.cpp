@@ -53,7 +53,9 @@ std::string repose_table(const Heap& heap, const ConeFit& f) {
   const HeapHeader& h = heap.header;
   std::string text = fmt::format("{}{} on {} ({} base), {} {} of {} mm, lifted at {} mm/s, seed {}\n\n", h.material,
                                  h.provisional ? " (provisional)" : "", h.wall, h.base, grain_count(heap),
-                                 h.spheres_per_grain > 1 ? fmt::format("clumps of {} spheres, as large as spheres", h.spheres_per_grain) : "grains",
+                                 h.spheres_per_grain > 1
+                                     ? fmt::format("clumps of {} spheres, as large as spheres", h.spheres_per_grain)
+                                     : "grains",
                                  1e3 * h.grain_diameter, 1e3 * h.lift_speed, h.seed);
   text += fmt::format("  {:<44}{:>12}{:>12}  {}\n", "heap", "value", "u (k=1)", "unit");
   const auto line = [&](const std::string& name, double value, const std::string& u, const std::string& unit) {

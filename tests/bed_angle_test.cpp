@@ -31,7 +31,8 @@ class BedAngleOf : public testing::Test {
   void TearDown() override { fs::remove_all(folder_); }
   std::string first() const { return (folder_ / "bed_1.csv").string(); }
 
-  // Grains below a plane, `height` above the axis, that falls at `near` degrees next to the end x = 0 and at `far` in the rest of the drum.
+  // Grains below a plane, `height` above the axis, that falls at `near` degrees next to the end x = 0 and at `far` in
+  // the rest of the drum.
   void look(int k, int frames, double tilt, double near, double far, std::mt19937_64& random, int grains = 6000,
             double height = 0) {
     std::uniform_real_distribution<double> one(-1, 1);

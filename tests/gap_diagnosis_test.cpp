@@ -6,10 +6,12 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <fstream>
 
 #include "diagnosis.h"
 #include "gap_toy.h"
 #include "inputs.h"
+#include "page.h"
 
 namespace {
 
@@ -207,6 +209,18 @@ TEST(GapRegions, OtherConditionsHaveTheirsToo) {
   std::map<std::string, std::size_t> sizes;
   for (const Region& r : regions_of(rows)) sizes[r.region] = r.rows.size();
   EXPECT_EQ(sizes, (std::map<std::string, std::size_t>{{"all", 4}, {"low tilt", 1}, {"high tilt", 3}}));
+}
+
+// An unknown effect cannot be added: the page of such an answer shows recalibration alone beside the baseline.
+TEST(GapPage, ShowsNoRunWithAnUnknownEffect) {
+  std::ifstream in(VIELTO_SOURCE_DIR "/gap/answers/wheat-wall-B/diagnosis.json");
+  nlohmann::ordered_json answer = nlohmann::ordered_json::parse(in);
+  ASSERT_EQ(answer["verdict"], "unknown");
+  const std::string page = diagnosis_page(answer, "wall B");
+  EXPECT_NE(page.find("recalibrated only"), std::string::npos);
+  EXPECT_EQ(page.find("with the effect"), std::string::npos);
+  answer["verdict"] = "named";
+  EXPECT_NE(diagnosis_page(answer, "wall B").find("with the effect"), std::string::npos);
 }
 
 }  // namespace

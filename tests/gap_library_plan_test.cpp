@@ -135,8 +135,9 @@ TEST_F(GapLibraryPlan, TheStudyHoldsBaselineMembersAndEffects) {
 
 // The drum has a stiffness of its own, which holds over the card's: half a decade more is half a decade of the drum's.
 TEST_F(GapLibraryPlan, AnEffectStartsFromWhatTheRigItselfStates) {
-  write("library/plan.toml", "seeds = 6\n[[rig]]\nname = \"drum\"\nconditions = [{tilt = 45}]\n[[rig.effect]]\n"
-                             "name = \"soft_grain\"\nstrengths = [0.5]\nat = [1]\n");
+  write("library/plan.toml",
+        "seeds = 6\n[[rig]]\nname = \"drum\"\nconditions = [{tilt = 45}]\n[[rig.effect]]\n"
+        "name = \"soft_grain\"\nstrengths = [0.5]\nat = [1]\n");
   ASSERT_EQ(plan(), 0) << err_;
   const double own = vielto::ParFile::read(VIELTO_SOURCE_DIR "/cases/drum/drum.par").number("youngsModulus");
   const auto row = table(folder_ / "study.csv").back();

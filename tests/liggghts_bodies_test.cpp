@@ -261,8 +261,8 @@ TEST(Sjkr, ForceIsEnergyDensityTimesContactArea) {
   }
 }
 
-/* Adhesion by its formula, F = 2/3 sigma_t d_1 d_2 (porosity 0.4), on the same path: constant while the surfaces overlap,
-   nothing apart; the friction is tan(phi') times spring plus dashpot. */
+/* Adhesion by its formula, F = 2/3 sigma_t d_1 d_2 (porosity 0.4), on the same path: constant while the surfaces
+   overlap, nothing apart; the friction is tan(phi') times spring plus dashpot. */
 TEST(Adhesion, IsAConstantPullWhileTheyTouch) {
   const Cohesion adhesion = {"adhesion", "fix c all property/global adhesionStrength scalar 500\n"};
   const double pull = 2.0 / 3 * 500 * (2 * R) * (2 * R);
@@ -302,10 +302,12 @@ TEST(Adhesion, HoldsGrainsTogetherWhereSjkrDoesNot) {
     const Table last = run.dump("states").back();
     return (last.x(0) - last.x(1)).norm();
   };
-  EXPECT_LT(distance("cohesion adhesion rolling_friction vielto",
-                     "fix c all property/global adhesionStrength scalar 500\n"), 2 * R);
+  EXPECT_LT(
+      distance("cohesion adhesion rolling_friction vielto", "fix c all property/global adhesionStrength scalar 500\n"),
+      2 * R);
   EXPECT_GT(distance("cohesion sjkr2 rolling_friction vielto",
-                     "fix c all property/global cohesionEnergyDensity peratomtypepair 1 1e5\n"), 2 * R + 1e-5);
+                     "fix c all property/global cohesionEnergyDensity peratomtypepair 1 1e5\n"),
+            2 * R + 1e-5);
 }
 
 }  // namespace

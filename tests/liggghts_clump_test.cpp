@@ -26,37 +26,44 @@ struct Body {
 };
 
 // One body at x, not turned unless `turn` (a quaternion) says so.
-std::string insert(const Liggghts& run, const Body& b, const std::string& name, const Vec& x, const Vec& v, const Vec& w,
-                   const std::string& turn, int number) {
+std::string insert(const Liggghts& run, const Body& b, const std::string& name, const Vec& x, const Vec& v,
+                   const Vec& w, const std::string& turn, int number) {
   run.write(name + ".clump", b.spheres);
   const char* seeds[] = {"15485863 32452843 49979687", "67867967 86028121 104395301"};
   std::istringstream words(seeds[number - 1]);
   std::string s1, s2, s3;
   words >> s1 >> s2 >> s3;
   return fmt::format(
-      "fix {0} all particletemplate/multisphere {1} atom_type 1 density constant 1375 nspheres {2} ntry 100000 spheres file "
+      "fix {0} all particletemplate/multisphere {1} atom_type 1 density constant 1375 nspheres {2} ntry 100000 spheres "
+      "file "
       "{0}.clump scale 1 mass {3:.17g} inertia_tensor {4:.17g} 0 0 {5:.17g} 0 {5:.17g} use_density type {6}\n"
       "fix one_{0} all particledistribution/discrete {7} 1 {0} 1\n"
       "region at_{0} sphere {8:.17g} {9:.17g} {10:.17g} 1e-6 units box volume_limit 1e-20\n"
-      "fix put_{0} all insert/pack seed {11} distributiontemplate one_{0} maxattempt 10 insert_every once overlapcheck no "
-      "all_in no orientation {12} vel constant {13:.17g} {14:.17g} {15:.17g} omega constant {16:.17g} {17:.17g} {18:.17g} "
+      "fix put_{0} all insert/pack seed {11} distributiontemplate one_{0} maxattempt 10 insert_every once overlapcheck "
+      "no "
+      "all_in no orientation {12} vel constant {13:.17g} {14:.17g} {15:.17g} omega constant {16:.17g} {17:.17g} "
+      "{18:.17g} "
       "region at_{0} particles_in_region 1\n",
-      name, s1, b.count, b.m, b.axial, b.transverse, number, s2, x[0], x[1], x[2], s3, turn, v[0], v[1], v[2], w[0], w[1],
-      w[2]);
+      name, s1, b.count, b.m, b.axial, b.transverse, number, s2, x[0], x[1], x[2], s3, turn, v[0], v[1], v[2], w[0],
+      w[1], w[2]);
 }
 
 std::string box(const Material& m, int types = 2) {
   return settings_head() +
-         fmt::format("region box block -0.1 0.1 -0.1 0.1 -0.1 0.1 units box\ncreate_box {} box\nneighbor 0.001 bin\n"
-                     "neigh_modify delay 0\n", types) +
+         fmt::format(
+             "region box block -0.1 0.1 -0.1 0.1 -0.1 0.1 units box\ncreate_box {} box\nneighbor 0.001 bin\n"
+             "neigh_modify delay 0\n",
+             types) +
          properties(std::vector<Material>(static_cast<std::size_t>(types), m)) +
          fmt::format("pair_style gran {}\npair_coeff * *\nfix body all multisphere\n", vielto_models);
 }
 
 std::string plate(const Liggghts& run) {
   run.write("plate.stl", plate_stl(0.05));
-  return fmt::format("fix plate all mesh/surface file plate.stl type 2\n"
-                     "fix wall all wall/gran {} mesh n_meshes 1 meshes plate\n", vielto_models);
+  return fmt::format(
+      "fix plate all mesh/surface file plate.stl type 2\n"
+      "fix wall all wall/gran {} mesh n_meshes 1 meshes plate\n",
+      vielto_models);
 }
 
 // Direction of the three spheres' axis.
@@ -69,8 +76,8 @@ double energy(const Table& t) { return 0.5 * mass * t.v(1).squaredNorm() + 0.5 *
 
 const double kn = 2 * (2 * 1e6 * R) * (2 * 1e6 * 2 * R) / (2 * 1e6 * 3 * R);  // on a wall, R_2 = 2 R, equal materials
 
-/* Free of forces: a clump's own spheres overlap and do not feel each other. The integrator turns the body with the angular
-   momentum itself, which leaves round-off; omega, and with it the energy, follows the turn to second order. */
+/* Free of forces: a clump's own spheres overlap and do not feel each other. The integrator turns the body with the
+   angular momentum itself, which leaves round-off; omega, and with it the energy, follows the turn to second order. */
 TEST(Clump, InFlightKeepsMomentumAngularMomentumAndEnergy) {
   Liggghts run;
   const Vec v(0.1, 0.2, -0.3), w(200, 50, -80);
@@ -91,7 +98,8 @@ TEST(Clump, InFlightKeepsMomentumAngularMomentumAndEnergy) {
   }
 }
 
-// Flat on three spheres: restitution with the mass of the body in every contact. Tolerance as in liggghts_normal_impact_test.
+// Flat on three spheres: restitution with the mass of the body in every contact. Tolerance as in
+// liggghts_normal_impact_test.
 TEST(Clump, LandsFlatWithTheBodysMassInEachContact) {
   Material m;
   m.normalDamping = 0.3;
@@ -109,8 +117,9 @@ TEST(Clump, LandsFlatWithTheBodysMassInEachContact) {
   EXPECT_LT(end.w(1).norm() * reach, 1e-9 * v0) << "no turn out of nothing";
 }
 
-/* On one end first, at 30 degrees, without friction and damping: what is lost in flight is found in the turn. Tolerance: the
-   leapfrog's second order at the stiffest, (omega_0 dt)^2, with the mass an end feels, 1/m + reach^2 cos^2/I. */
+/* On one end first, at 30 degrees, without friction and damping: what is lost in flight is found in the turn.
+   Tolerance: the leapfrog's second order at the stiffest, (omega_0 dt)^2, with the mass an end feels, 1/m + reach^2
+   cos^2/I. */
 TEST(Clump, BouncesOnOneEndWithoutLossOfEnergy) {
   Material m;
   m.normalDamping = m.tangentialDamping = m.frictionAngle = m.rollingResistance = m.twistingResistance = 0;
@@ -138,8 +147,8 @@ struct OneSphere {
   }
 };
 
-/* With friction, damping, rolling and twisting, obliquely on a mesh and on another clump. Tolerance: round-off, grown in one
-   bounce. */
+/* With friction, damping, rolling and twisting, obliquely on a mesh and on another clump. Tolerance: round-off, grown
+   in one bounce. */
 TEST(Clump, OfOneSphereIsThatSphere) {
   const Vec v(0.2, 0.1, -0.4), w(20, -10, 30);
   for (const bool pair : {false, true}) {
@@ -148,10 +157,11 @@ TEST(Clump, OfOneSphereIsThatSphere) {
     one.sphere.radius = 0.004;
     const double R1 = one.sphere.radius;
     const std::string go = fmt::format("timestep 1e-6\n{}run 3000\n", dump_grains("states", 1000));
-    clumps.script = box(Material()) + (pair ? "" : plate(clumps)) +
-                    insert(clumps, one.body(), "a", {0, 0, R1 + 2e-5}, v, w, "template", 1) +
-                    (pair ? insert(clumps, one.body(), "b", {0.001, 0, -R1}, Vec::Zero(), Vec::Zero(), "template", 2) : "") +
-                    "run 1\nreset_timestep 0\n" + go;
+    clumps.script =
+        box(Material()) + (pair ? "" : plate(clumps)) +
+        insert(clumps, one.body(), "a", {0, 0, R1 + 2e-5}, v, w, "template", 1) +
+        (pair ? insert(clumps, one.body(), "b", {0.001, 0, -R1}, Vec::Zero(), Vec::Zero(), "template", 2) : "") +
+        "run 1\nreset_timestep 0\n" + go;
     clumps.must();
     const Table first = clumps.dump("states")[0], end = clumps.dump("states").back();
     std::vector<Sphere> start = {one.sphere};
@@ -170,8 +180,8 @@ TEST(Clump, OfOneSphereIsThatSphere) {
   }
 }
 
-/* Twelve clumps thrown into a tray, through our loop over pairs and through LIGGGHTS' own (a stress in every row of the log
-   makes it ask for the virial, which ours leaves to it). */
+/* Twelve clumps thrown into a tray, through our loop over pairs and through LIGGGHTS' own (a stress in every row of the
+   log makes it ask for the virial, which ours leaves to it). */
 TEST(Clump, InOurPairLoopHasTheNumbersOfLiggghts) {
   std::string states[2];
   for (const bool general : {false, true}) {
@@ -183,10 +193,13 @@ TEST(Clump, InOurPairLoopHasTheNumbersOfLiggghts) {
     put.replace(put.find("maxattempt 10 "), 14, "maxattempt 1000 ");
     const std::string walls = plate(run);
     run.write("plate.stl", tray_stl(0.02));
-    run.script = box(Material()) + walls + put + "fix down all gravity 9.81 vector 0 0 -1\n" +
-                 "timestep 5e-6\nrun 1\nreset_timestep 0\n" +
-                 (general ? "compute stress all stress/atom\ncompute sum all reduce sum c_stress[1]\nthermo_style custom step "
-                            "c_sum\nthermo 1\n" : "") + dump_grains("states", 500) + "run 10000\n";
+    run.script =
+        box(Material()) + walls + put + "fix down all gravity 9.81 vector 0 0 -1\n" +
+        "timestep 5e-6\nrun 1\nreset_timestep 0\n" +
+        (general ? "compute stress all stress/atom\ncompute sum all reduce sum c_stress[1]\nthermo_style custom step "
+                   "c_sum\nthermo 1\n"
+                 : "") +
+        dump_grains("states", 500) + "run 10000\n";
     run.must();
     states[general] = run.read("states");
     const std::vector<Table> frames = run.dump("states");
@@ -216,17 +229,23 @@ TEST(ClumpCommand, GivesVolumeMassAndInertiaOfTheUnion) {
   Liggghts run;
   // along y, off the origin, in mm
   run.write("pair.clump", "# x y z r\n\n0.002 0.0004 -0.001 0.001\n0.002 0.0016 -0.001 0.001\n");
-  run.script = settings_head() +
-               fmt::format("vielto clump a pair.clump out.clump diameter {} density {}\nprint 'words ${{a}}'\nprint "
-                           "'radius ${{aRadius}} of ${{aSpheres}}'\n", D, density);
+  run.script =
+      settings_head() + fmt::format(
+                            "vielto clump a pair.clump out.clump diameter {} density {}\nprint 'words ${{a}}'\nprint "
+                            "'radius ${{aRadius}} of ${{aSpheres}}'\n",
+                            D, density);
   const Outcome done = run.start();
   ASSERT_EQ(done.status, 0) << done.text;
   double M = 0, I[6] = {}, smallest = 0;
   int count = 0;
   const char* at = std::strstr(done.text.c_str(), "\nwords");
   ASSERT_TRUE(at) << done.text;
-  ASSERT_EQ(std::sscanf(at, "\nwords nspheres 2 ntry 100000 spheres file out.clump scale 1 mass %lf inertia_tensor %lf %lf "
-                            "%lf %lf %lf %lf use_density", &M, I, I + 1, I + 2, I + 3, I + 4, I + 5), 7) << at;
+  ASSERT_EQ(std::sscanf(at,
+                        "\nwords nspheres 2 ntry 100000 spheres file out.clump scale 1 mass %lf inertia_tensor %lf %lf "
+                        "%lf %lf %lf %lf use_density",
+                        &M, I, I + 1, I + 2, I + 3, I + 4, I + 5),
+            7)
+      << at;
   ASSERT_EQ(std::sscanf(std::strstr(done.text.c_str(), "\nradius"), "\nradius %lf of %d", &smallest, &count), 2);
   EXPECT_NEAR(M / m, 1, 1e-9);
   EXPECT_NEAR(I[3] / axial, 1, 1e-4);
@@ -249,11 +268,12 @@ struct Span {
 };
 
 TEST(ClumpFiles, SpanTheirCardsDimensions) {
-  // corn: the wedge itself. barley: to the ends of the last spheres, at 0.8 sqrt(a^2 - b^2) with r = 0.6 b; the middle pair's
-  // width; twice the radius of the spheres beside it, at half that distance.
+  // corn: the wedge itself. barley: to the ends of the last spheres, at 0.8 sqrt(a^2 - b^2) with r = 0.6 b; the middle
+  // pair's width; twice the radius of the spheres beside it, at half that distance.
   const double a = 0.00891 / 2, b = std::sqrt(0.00330 * 0.00258) / 2;
-  for (const Span& span : {Span{"fodder_corn", 0.01054, 0.00726, 0.00457},
-                           Span{"hulled_barley", 2 * (0.8 * std::sqrt(a * a - b * b) + 0.6 * b), 0.00330, 2 * b * std::sqrt(1 - 0.16)}}) {
+  for (const Span& span :
+       {Span{"fodder_corn", 0.01054, 0.00726, 0.00457},
+        Span{"hulled_barley", 2 * (0.8 * std::sqrt(a * a - b * b) + 0.6 * b), 0.00330, 2 * b * std::sqrt(1 - 0.16)}}) {
     std::ifstream in(fmt::format("{}/materials/{}.clump", VIELTO_SOURCE_DIR, span.grain));
     Vec low = Vec::Constant(1), high = -low;
     for (std::string line; std::getline(in, line);) {
@@ -283,14 +303,15 @@ TEST_P(ClumpFile, IsRefusedWithOneLine) {
 
 INSTANTIATE_TEST_SUITE_P(
     BadInput, ClumpFile,
-    testing::Values(Fault{"Missing", "", {"grain.clump", "cannot be read", "clump no"}},
-                    Fault{"ThreeNumbers", "0 0 0 0.001\n0 0 0.001\n", {"grain.clump, line 2", "not four numbers", "x y z r"}},
-                    Fault{"AWord", "0 0 0 0.001\n# grain\n0 x 0 0.001\n", {"grain.clump, line 3", "not four numbers"}},
-                    Fault{"FiveNumbers", "0 0 0 0.001 1\n", {"grain.clump, line 1", "not four numbers"}},
-                    Fault{"NoRadius", "0 0 0 0.001\n0 0 0.001 0\n", {"grain.clump, line 2", "radius <= 0"}},
-                    Fault{"Millimetres", "0 0 0 2.3\n0 0 1 2.3\n", {"grain.clump, line 1", "metres"}},
-                    Fault{"OneSphere", "0 0 0 0.001\n", {"grain.clump", "two spheres"}},
-                    Fault{"InPieces", "0 0 0 0.001\n0 0 0.003 0.001\n", {"grain.clump", "hang together"}}),
+    testing::Values(
+        Fault{"Missing", "", {"grain.clump", "cannot be read", "clump no"}},
+        Fault{"ThreeNumbers", "0 0 0 0.001\n0 0 0.001\n", {"grain.clump, line 2", "not four numbers", "x y z r"}},
+        Fault{"AWord", "0 0 0 0.001\n# grain\n0 x 0 0.001\n", {"grain.clump, line 3", "not four numbers"}},
+        Fault{"FiveNumbers", "0 0 0 0.001 1\n", {"grain.clump, line 1", "not four numbers"}},
+        Fault{"NoRadius", "0 0 0 0.001\n0 0 0.001 0\n", {"grain.clump, line 2", "radius <= 0"}},
+        Fault{"Millimetres", "0 0 0 2.3\n0 0 1 2.3\n", {"grain.clump, line 1", "metres"}},
+        Fault{"OneSphere", "0 0 0 0.001\n", {"grain.clump", "two spheres"}},
+        Fault{"InPieces", "0 0 0 0.001\n0 0 0.003 0.001\n", {"grain.clump", "hang together"}}),
     [](const auto& one) { return one.param.name; });
 
 }  // namespace

@@ -66,7 +66,8 @@ INSTANTIATE_TEST_SUITE_P(Walls, RollingSphere,
                          testing::Combine(testing::Values(Wall::primitive, Wall::mesh), testing::Values(1.0, 2.0, 5.0),
                                           testing::Values(0.1, 0.3)));
 
-// wallRolling adds to mu_r on walls: the sphere slows down as if both made one resistance. Two spheres know nothing of it.
+// wallRolling adds to mu_r on walls: the sphere slows down as if both made one resistance. Two spheres know nothing of
+// it.
 TEST(WallRolling, AddsToTheResistanceOfWallsOnly) {
   Material m;
   m.rollingResistance = 0.1;
