@@ -14,6 +14,7 @@
 #include "columns.h"
 #include "condition.h"
 #include "sha256.h"
+#include "sources.h"
 
 namespace vielto::gap {
 namespace {
@@ -261,7 +262,7 @@ Collected collect_library(const LibraryPlan& plan, const std::string& results, c
   std::string design = "test,effect,strength,seed,run_hash";
   for (const std::string& name : plan.parameter_names) design += "," + name;
   design += "\n";
-  std::string sources = "test,source,torque_Nm\n";
+  std::string sources = kSourcesHeader;
   std::vector<Observation> rows;
   Collected collected;
   for (const LibraryRun& run : plan.runs) {
@@ -285,11 +286,7 @@ Collected collect_library(const LibraryPlan& plan, const std::string& results, c
       rows.push_back(row);
     }
     const std::string power = (fs::path(results) / "runs" / run.name / "post" / "power.json").string();
-    if (fs::exists(power)) {
-      const json parts = read_json(power)["parts"];
-      for (const auto& [part, torque] : parts.items())
-        sources += fmt::format("{},{},{:.6g}\n", run.name, part, torque["torque_Nm"].get<double>());
-    }
+    if (fs::exists(power)) sources += sources_of_run(run.name, read_json(power), fs::path(power).replace_filename("phase.csv").string());
     ++collected.runs;
   }
   if (collected.runs == 0)

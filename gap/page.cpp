@@ -51,9 +51,10 @@ std::string map_of_the_gap(const json& where) {
 }
 
 // Where in the machine the simulated torque arises, and where the effects change it.
-std::string sources_table(const json& sources) {
+std::string sources_rows(const json& sources, const std::string& kind) {
   std::string rows;
   for (const json& s : sources) {
+    if (s["kind"] != kind) continue;
     std::string changes;
     for (const json& e : s["effects"])
       changes += fmt::format("{}{} at {:.3g}: {:+.0f} &plusmn; {:.0f} %", changes.empty() ? "" : "; ",
@@ -66,11 +67,25 @@ std::string sources_table(const json& sources) {
         escaped(s["source"].get<std::string>()), bar(std::fabs(s["share"].get<double>()), "#8a6fbf"),
         100 * s["share"].get<double>(), changes);
   }
-  return "<p>Parts of the simulated rotor torque; drum: what its wall takes back, the rest is the weight of the "
-         "grain.</p>\n"
-         "<table><tr><th>speed</th><th>fill</th><th>source</th><th></th><th>share</th><th>change with the effect, of "
-         "the whole</th></tr>\n" +
-         rows + "</table>\n";
+  return rows;
+}
+
+std::string sources_table(const json& sources) {
+  std::string text;
+  for (const auto& [kind, words] :
+       {std::pair("part", "Parts of the simulated rotor torque; drum: what its wall takes back, the rest is the weight "
+                          "of the grain."),
+        std::pair("phase", "The paddles' torque by the place of a paddle in its turn; 0 deg is the lowest point, from "
+                           "which it rises."),
+        std::pair("loss", "Where the work goes: dashpots (normal, tangential), sliding, rolling, twisting.")}) {
+    const std::string rows = sources_rows(sources, kind);
+    if (rows.empty()) continue;
+    text += fmt::format(
+        "<p>{}</p>\n<table><tr><th>speed</th><th>fill</th><th>source</th><th></th><th>share</th><th>change with the "
+        "effect, of the whole</th></tr>\n{}</table>\n",
+        words, rows);
+  }
+  return text;
 }
 
 std::string ranking(const json& probabilities) {

@@ -68,7 +68,7 @@ RunQuality run_quality(const TorqueRecord& r, const AveragedTurns& turns, const 
     const EnergyAccounts &begin = r.energy[turns.first], &end = r.energy[turns.first + turns.count];
     const auto stored = [](const EnergyAccounts& e) { return e.kinetic + e.elastic + e.potential; };
     const double work = end.work - begin.work;
-    q.energy_gap = (work - (end.dissipated - begin.dissipated) - (stored(end) - stored(begin))) / work;
+    q.energy_gap = (work - (end.dissipated() - begin.dissipated()) - (stored(end) - stored(begin))) / work;
     warn(!(std::fabs(*q.energy_gap) <= kMostEnergyGap),
          fmt::format("work exceeds dissipation and stored energy by {:+.2g} %, the limit is {} %", 100 * *q.energy_gap,
                      100 * kMostEnergyGap));
@@ -174,6 +174,13 @@ MixingPower mixing_power(const TorqueRecord& loaded, const TorqueRecord* idle, i
   result.in_thesis_range = h.fill >= ThesisEquation::low_fill && h.fill <= ThesisEquation::high_fill &&
                            h.speed >= ThesisEquation::low_speed && h.speed <= ThesisEquation::high_speed;
   result.relative_gap = power / result.thesis_power - 1;
+  if (!loaded.energy.empty()) {
+    // As parts of the work: the accounts are taken where rows end, which is not quite where turns meet.
+    const EnergyAccounts &begin = loaded.energy[averaged.first], &end = loaded.energy[averaged.first + averaged.count];
+    result.losses.emplace();
+    for (std::size_t k = 0; k < kLosses.size(); ++k)
+      (*result.losses)[k] = result.power.mean * (end.losses[k] - begin.losses[k]) / (end.work - begin.work);
+  }
   result.curves = shaft_curves(loaded, averaged.first, averaged.count);
   result.quality = run_quality(loaded, averaged, result.torque, result.curves);
   return result;

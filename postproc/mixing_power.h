@@ -65,6 +65,7 @@ struct MixingPower {
   MeanUncertainty power;                             // W
   std::optional<MeanUncertainty> loaded, idle;       // W
   std::array<MeanUncertainty, kParts.size()> parts;  // torque, whole drum, N m
+  std::optional<std::array<double, kLosses.size()>> losses;  // dissipated power of the whole drum, W; if recorded
   double n_p = 0, n_pc = 0, n_c = 0, fr_m = 0;
   double thesis_power = 0;  // W
   bool in_thesis_range = false;

@@ -34,6 +34,9 @@ Json power_json(const MixingPower& p) {
   Json parts;
   for (std::size_t i = 0; i < kParts.size(); ++i)
     parts[kParts[i]] = {{"torque_Nm", p.parts[i].mean}, {"torque_u_Nm", p.parts[i].u}};
+  Json losses;
+  if (p.losses)
+    for (std::size_t i = 0; i < kLosses.size(); ++i) losses[kLosses[i]] = {{"power_W", (*p.losses)[i]}};
   const RunQuality& q = p.quality;
   Json quality = {
       {"ok", q.ok()},
@@ -94,6 +97,7 @@ Json power_json(const MixingPower& p) {
       {"torque_ripple_u", p.curves.ripple_u},
       {"torque_ripple_noise", p.curves.ripple_noise},
       {"parts", parts},
+      {"losses", losses},
       {"quality", quality},
   };
 }
@@ -112,6 +116,9 @@ std::string power_table(const MixingPower& p) {
   text += line("mean torque on the grains", p.torque, "N m");
   for (std::size_t i = 0; i < kParts.size(); ++i)
     text += line(fmt::format("  of the {}", kParts[i]), p.parts[i], "N m");
+  if (p.losses)
+    for (std::size_t i = 0; i < kLosses.size(); ++i)
+      text += line(fmt::format("power lost, {}", kLosses[i]), (*p.losses)[i], "", "W");
   text += line("torque ripple", p.curves.ripple, fmt::format("{:.2g}", p.curves.ripple_u), "1");
   if (p.loaded) text += line("loaded power", *p.loaded, "W");
   if (p.idle) text += line("idling power", *p.idle, "W");

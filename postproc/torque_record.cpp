@@ -123,13 +123,13 @@ class EnergyColumns {
     work_ = columns.at("work_J");
     elastic_ = columns.at("elastic_J");
     potential_ = columns.at("potential_J");
-    for (const char* name : {"normal", "tangential", "sliding", "rolling", "twisting"})
-      dissipated_.push_back(columns.at(fmt::format("diss_{}_J", name)));
+    for (std::size_t k = 0; k < kLosses.size(); ++k) losses_[k] = columns.at(fmt::format("diss_{}_J", kLosses[k]));
   }
   bool recorded() const { return recorded_; }
   EnergyAccounts at(const std::vector<double>& row) const {
-    EnergyAccounts accounts{row[work_], row[kinetic_], row[elastic_], row[potential_], 0};
-    for (const std::size_t column : dissipated_) accounts.dissipated += row[column];
+    EnergyAccounts accounts{row[work_], row[kinetic_], row[elastic_], row[potential_], {}};
+    if (recorded_)
+      for (std::size_t k = 0; k < losses_.size(); ++k) accounts.losses[k] = row[losses_[k]];
     return accounts;
   }
 
@@ -137,7 +137,7 @@ class EnergyColumns {
   std::size_t kinetic_;
   bool recorded_;
   std::size_t work_ = 0, elastic_ = 0, potential_ = 0;
-  std::vector<std::size_t> dissipated_;
+  std::array<std::size_t, kLosses.size()> losses_{};
 };
 
 // Steps, times and turns must follow each other; an interval is [end - length, end] in turns.

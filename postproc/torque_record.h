@@ -18,6 +18,7 @@
 #pragma once
 
 #include <array>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,7 @@ namespace vielto {
 constexpr int kPhases = 72;        // of 5 degrees
 constexpr int kMostBlocks = 1024;  // even
 constexpr std::array<const char*, 4> kParts = {"paddles", "stems", "shaft", "drum"};
+constexpr std::array<const char*, 5> kLosses = {"normal", "tangential", "sliding", "rolling", "twisting"};
 
 struct TorqueRecordHeader {
   double speed = 0;                   // 1/s
@@ -57,7 +59,8 @@ struct TorqueRecordHeader {
 // Energy accounts of the grains, J; work and dissipation since the start of the rotation.
 struct EnergyAccounts {
   double work = 0, kinetic = 0, elastic = 0, potential = 0;
-  double dissipated = 0;  // all five mechanisms
+  std::array<double, kLosses.size()> losses{};  // dissipated, in the order of kLosses
+  double dissipated() const { return std::accumulate(losses.begin(), losses.end(), 0.0); }
 };
 
 struct TorqueRecord {

@@ -88,7 +88,16 @@ class GapLibraryPlan : public GapFolder {
     const json parts = {{"paddles", {{"torque_Nm", cohesive ? 6.0 : 3.0}}},
                         {"stems", {{"torque_Nm", 1.0}}},
                         {"drum", {{"torque_Nm", -2.0}}}};
-    write("results/runs/" + run.at("run") + "/post/power.json", json{{"parts", parts}}.dump());
+    // the whole loss is the rotor's work, 2 pi n times its torque, and sliding has all that cohesion adds
+    const double watt = 2 * std::acos(-1) * std::stod(run.at("speed"));
+    const json losses = {{"normal", {{"power_W", 1.0 * watt}}}, {"sliding", {{"power_W", (cohesive ? 6.0 : 3.0) * watt}}}};
+    write("results/runs/" + run.at("run") + "/post/power.json",
+          json{{"speed", std::stod(run.at("speed"))}, {"parts", parts}, {"losses", losses}}.dump());
+    // a paddle meets grain from 30 deg before to 60 deg after the lowest point, which is at 270 deg
+    std::string phases = "phase_deg,paddle_Nm,paddles_Nm\n";
+    for (double angle = 2.5; angle < 360; angle += 5)
+      phases += fmt::format("{},{},1\n", angle, angle > 240 && angle < 330 ? 1 : 0);
+    write("results/runs/" + run.at("run") + "/post/phase.csv", phases);
     write(
         "results/post/" + run.at("run") + ".csv",
         fmt::format("test,role,apparatus,observable,value,u,unit,speed,fill,moisture,normal_stress,shear_velocity,tilt,"
@@ -170,10 +179,16 @@ TEST_F(GapLibraryPlan, CollectsWhatIsDoneAndNamesTheRest) {
   EXPECT_EQ(gap("diagnose t.csv --library library --draws 20 --out answer"), 0) << err_;
   // Three of four parts of the baseline's torque are the paddles'.
   const json d = json::parse(content(folder_ / "answer/diagnosis.json"));
-  ASSERT_EQ(d["sources"].size(), 6u);
-  for (const json& s : d["sources"])
-    EXPECT_DOUBLE_EQ(s["share"], s["source"] == "paddles" ? 0.75 : s["source"] == "stems" ? 0.25 : -0.5);
-  EXPECT_NE(content(folder_ / "answer/diagnosis.html").find("Where in the machine"), std::string::npos);
+  const std::map<std::string, double> shares = {{"paddles", 0.75}, {"stems", 0.25}, {"drum", -0.5}, {"normal", 0.25}, {"sliding", 0.75},
+                                                {"-60 to 0 deg", 0.25}, {"0 to 60 deg", 0.5}};
+  ASSERT_EQ(d["sources"].size(), 2u * (3 + 2 + 6));
+  for (const json& s : d["sources"]) {
+    const auto share = shares.find(s["source"]);
+    EXPECT_NEAR(s["share"], share == shares.end() ? 0 : share->second, 1e-5) << s;  // six digits in the table
+  }
+  const std::string page = content(folder_ / "answer/diagnosis.html");
+  for (const char* words : {"Where in the machine", "0 to 60 deg", "<td>sliding</td>"})
+    EXPECT_NE(page.find(words), std::string::npos) << words;
 }
 
 TEST_F(GapLibraryPlan, RefusesRunsOfAnotherScript) {

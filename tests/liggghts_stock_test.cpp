@@ -12,7 +12,8 @@ namespace {
 using namespace vielto_test;
 
 const double R = 0.005, E = 1e6, wallE = 3e6, w = 2, cn = 4, maxOverlap = 0.05, hertzOverlap = 0.01, nu = 0.3, g = 9.81;
-const double betaGrain = 0.3, betaWall = 0.5, phiGrain = 20, phiWall = 30, rollGrain = 0.1, rollWall = 0.3;
+const double betaGrain = 0.3, betaWall = 0.5, phiGrain = 20, phiWall = 30, rollGrain = 0.1, rollWall = 0.3,
+             wallRolling = 0.04;
 
 double tangent(double degrees) { return std::tan(degrees * pi / 180); }
 
@@ -41,6 +42,7 @@ std::string start(const Liggghts& run, const std::string& law, const std::vector
       fmt::format("pair_style gran {} {}\n", models(law), settings.at(law)) +
       fmt::format("variable law index {}\nvariable grainDiameter index {}\nvariable density index 1375\n", law, 2 * R) +
       fmt::format("variable springFactor index {}\nvariable wallRadiusFactor index {}\n", cn, w) +
+      fmt::format("variable wallRolling index {}\n", wallRolling) +
       fmt::format("variable poissonsRatio index {}\nvariable hertzOverlap index {}\n", nu, hertzOverlap);
   const std::map<std::string, std::pair<double, double>> card = {{"youngsModulus", {E, wallModulus}},
                                                                  {"normalDamping", {betaGrain, betaWall}},
@@ -161,11 +163,11 @@ TEST_P(Stock, SlidesWithTheTangentOfTheMeanAngle) {
   }
 }
 
-/* A grain that rolls on the plane is held back by the greatest moment, mu_r F_n R 2 w/(1 + w) with the smaller mu_r:
-   5/7 of it over m R. Tolerance: the tangential spring, which nothing damps, swings about its load f = m a with the
+/* A grain that rolls on the plane is held back by the greatest moment, mu_r F_n R 2 w/(1 + w) with the smaller mu_r
+   and what the wall adds to it: 5/7 of it over m R. Tolerance: the tangential spring, which nothing damps, swings about its load f = m a with the
    amplitude f/sqrt(k_t 2/7 m) of the speed, twice. */
 TEST_P(Stock, RollsAgainstTheGreatestMoment) {
-  const double v = 0.4, a = 5.0 / 7 * rollGrain * wall.arm * g;
+  const double v = 0.4, a = 5.0 / 7 * (rollGrain + wallRolling) * wall.arm * g;
   Liggghts run;
   Sphere s = resting(R, 0);
   const double load = s.mass() * g, u = rest(load, wall.kn);

@@ -265,11 +265,15 @@ TEST_F(PostCommand, BalancesAreReportedWhereRecorded) {
   EXPECT_NEAR(q["energy_closure_relative"], 0.004, 1e-6);
   EXPECT_NEAR(q["torque_balance_relative"], 0, 1e-7);
   EXPECT_TRUE(q["ok"]);
+  // each mechanism has a fifth of what the shaft's work leaves when the rest is missing
+  for (const char* loss : {"normal", "tangential", "sliding", "rolling", "twisting"})
+    EXPECT_NEAR(power()["losses"][loss]["power_W"], 0.2 * 0.996 * power()["power_W"].get<double>(), 1e-5) << loss;
   SyntheticRecord plain;
   plain.write(folder_ / "run");
   ASSERT_EQ(post("run"), 0) << err_;
   EXPECT_TRUE(power()["quality"]["energy_closure_relative"].is_null());
   EXPECT_TRUE(power()["quality"]["torque_balance_Nm"].is_null());
+  EXPECT_TRUE(power()["losses"].is_null());
 }
 
 TEST_F(PostCommand, ASampleHoweverWildIsAveragedNotDropped) {

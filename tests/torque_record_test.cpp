@@ -169,8 +169,9 @@ TEST_F(TorqueRecord, EnergyAccountsAreTakenWhereTurnsMeet) {
   ASSERT_EQ(record.energy.size(), 4u);
   // Work of a turn: 2 pi times the mean rotor torque, 0.75 N m.
   EXPECT_NEAR(record.energy[2].work - record.energy[1].work, 2 * kPi * 0.75, 1e-6);
-  EXPECT_NEAR(record.energy[3].dissipated, record.energy[3].work, 1e-6);
+  EXPECT_NEAR(record.energy[3].dissipated(), record.energy[3].work, 1e-6);
   EXPECT_EQ(record.energy[0].potential, 1.5);
+  for (const double loss : record.energy[3].losses) EXPECT_NEAR(loss, 0.2 * record.energy[3].work, 1e-6);
   SyntheticRecord plain;
   plain.turns = 2;
   EXPECT_TRUE(read(plain).energy.empty());
