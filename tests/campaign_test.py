@@ -54,6 +54,20 @@ with tempfile.TemporaryDirectory(prefix="vielto-campaign-") as name:
     again = subprocess.run(campaign(study, out), capture_output=True, text=True)
     assert again.returncode == 0, again.stdout + again.stderr + (out / "snakemake.log").read_text()
     assert tables(out) == tables(folder / "whole")
+    # a study that has changed is not given the old runs' numbers
+    study.write_text(STUDY.replace("fast,mixer,1.5,0.05", "fast,mixer,1.5,0.06"))
+    changed = subprocess.run(campaign(study, out), capture_output=True, text=True)
+    assert changed.returncode == 2 and "1 finished runs are out of date, fast was made with fill 0.05" in changed.stderr, changed.stderr
+    assert tables(out) == tables(folder / "whole")
+    again = subprocess.run([*campaign(study, out), "--again"], capture_output=True, text=True)
+    assert again.returncode == 0, again.stdout + again.stderr
+    assert ",0.06," in (out / "observations.csv").read_text() and tables(out) != tables(folder / "whole")
+    # nor one whose script is another by now
+    made = out / "runs/slow/run.json"
+    made.write_text(made.read_text().replace('"in.mixer": "', '"in.mixer": "0'))
+    other = subprocess.run(campaign(study, out), capture_output=True, text=True)
+    assert other.returncode == 2 and "slow was made from another cases/mixer/in.mixer" in other.stderr, other.stderr
+    study.write_text(STUDY)
     # in portions: the table of the second holds the first
     one = subprocess.run([*campaign(study, folder / "parts"), "--only", "fast"], capture_output=True, text=True)
     assert one.returncode == 0, one.stdout + one.stderr
@@ -69,8 +83,9 @@ with tempfile.TemporaryDirectory(prefix="vielto-campaign-") as name:
     assert filled == [False, True], filled
     # nothing to do any more
     study.write_text(STUDY)
-    third = subprocess.run(campaign(study, out), capture_output=True, text=True)
-    assert third.returncode == 0 and tables(out) == tables(folder / "whole")
+    before = tables(folder / "whole")
+    third = subprocess.run(campaign(study, folder / "whole"), capture_output=True, text=True)
+    assert third.returncode == 0 and tables(folder / "whole") == before, third.stdout + third.stderr
 
     for text, fault in (("run,rig,seed\na,mill,1\n", "line 2: a run needs a name in `run` and one of mixer, shearbox, repose"),
                         ("run,rig,seed\na,mixer,1\na,mixer,2\n", "line 3: run a is there twice"),

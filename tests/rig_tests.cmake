@@ -1,9 +1,10 @@
 # cases/shearbox, cases/repose and cases/drum through their own command lines, and what is made of their records.
-foreach(name shearbox_run_test repose_run_test drum_run_test rig_laws_test)
+foreach(name shearbox_run_test repose_run_test drum_run_test rig_laws_test rig_reference_test)
   vielto_liggghts_test(${name})
   add_dependencies(${name} vielto)
   target_link_libraries(${name} PRIVATE nlohmann_json::nlohmann_json)
 endforeach()
+target_link_libraries(rig_reference_test PRIVATE vielto_post)
 vielto_liggghts_test(liggghts_plate_test)
 vielto_test(bed_angle_test bed_angle_test.cpp LIBS vielto_post)
 vielto_test(cone_fit_test cone_fit_test.cpp LIBS vielto_post)
