@@ -51,6 +51,17 @@ with tempfile.TemporaryDirectory(prefix="vielto-campaign-") as name:
     started.wait()
     assert not (out / "observations.csv").exists()
     assert record.exists()
+    # told to end, it ends with all that it started
+    told = subprocess.Popen(campaign(study, out), stdout=subprocess.DEVNULL, stderr=subprocess.STDOUT)
+    for _ in range(600):
+        if subprocess.run(["pgrep", "-f", f"liggghts.*{out}"], stdout=subprocess.DEVNULL).returncode == 0:
+            break
+        time.sleep(0.1)
+    told.terminate()
+    assert told.wait(20) == 130
+    time.sleep(0.5)
+    left = subprocess.run(["pgrep", "-af", str(out)], capture_output=True, text=True).stdout
+    assert not left, left
     again = subprocess.run(campaign(study, out), capture_output=True, text=True)
     assert again.returncode == 0, again.stdout + again.stderr + (out / "snakemake.log").read_text()
     assert tables(out) == tables(folder / "whole")

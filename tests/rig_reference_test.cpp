@@ -82,4 +82,4 @@ INSTANTIATE_TEST_SUITE_P(Rigs, RigReference,
                          testing::Values(Case{"mixer", "mixer", "power.json"}, Case{"shear", "shearbox", "shear.json"},
                                          Case{"heap", "repose", "repose.json"}, Case{"level", "drum", "drum.json"},
                                          Case{"tilted", "drum", "drum.json"}),
-                         [](const auto& info) { return info.param.name; });
+                         [](const auto& test) { return test.param.name; });
