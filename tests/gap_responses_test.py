@@ -1,0 +1,49 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""gap/responses through its command line, on a library whose responses are known by hand, and on those of the repository."""
+import math
+import pathlib
+import subprocess
+import tempfile
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+
+
+def responses(*words):
+    return subprocess.run([ROOT / "gap/responses", *map(str, words)], capture_output=True, text=True)
+
+
+with tempfile.TemporaryDirectory(prefix="vielto-responses-") as name:
+    folder = pathlib.Path(name)
+    # baseline 9, 10, 11 (mean 10, scatter 10 %); two runs of an effect 14 and 16; one member 8 with u = 2
+    runs = [("a", "none", 0, 1, 20, 9, 0.1), ("b", "none", 0, 2, 20, 10, 0.1), ("c", "none", 0, 3, 20, 11, 0.1),
+            ("d", "shape", 0.2, 1, 20, 14, 0.1), ("e", "shape", 0.2, 2, 20, 16, 0.1), ("f", "none", 0, 1, 25, 8, 2)]
+    (folder / "design.csv").write_text("test,effect,strength,seed,run_hash,frictionAngle\n" +
+                                       "".join(f"{t},{e},{s},{k},{t},{p}\n" for t, e, s, k, p, _, _ in runs))
+    (folder / "observations.csv").write_text(
+        "test,role,apparatus,observable,value,u,unit,speed,fill,moisture,normal_stress,shear_velocity,tilt,wall,material\n" +
+        "".join(f"{t},fit,mixer,power_loaded,{v + 3},{u},W,0.5,0.1,,,,,,m\n{t},fit,mixer,power_idle,3,0,W,0.5,0.1,,,,,,m\n"
+                for t, _, _, _, _, v, u in runs))
+    told = responses(folder)
+    assert told.returncode == 0, told.stderr
+    assert "one seed scatters by 10.0 % at speed 0.5, fill 0.1" in told.stdout, told.stdout
+    # mean of two runs +50 %: 1.5 * 10 % / sqrt 2 and 1.5 * 10 % / sqrt 3 together; the member -20 %: its own 20 % and 8 %/sqrt 3
+    shape = 100 * math.hypot(0.15 / math.sqrt(2), 0.15 / math.sqrt(3))
+    member = 100 * math.hypot(0.2, 0.08 / math.sqrt(3))
+    assert f"| shape | 0.2 | speed 0.5, fill 0.1 | +50 ± {shape:.0f} % |" in told.stdout, told.stdout
+    assert f"| frictionAngle 25 | 0 | speed 0.5, fill 0.1 | -20 ± {member:.0f} % |" in told.stdout, told.stdout
+
+    for words, fault in (((folder, "--observable", "angle"), "there is no angle in it; --observable takes power_idle, power_loaded"),
+                         ((folder / "none",), "name a response library")):
+        refused = responses(*words)
+        assert refused.returncode == 2 and fault in refused.stderr and refused.stderr.count("\n") == 1, refused
+    picture = folder / "p.svg"
+    drawn = responses(folder, "--picture", picture)
+    if "needs matplotlib" in drawn.stderr:
+        assert drawn.returncode == 2 and not picture.exists()
+    else:
+        assert drawn.returncode == 0 and "<svg" in picture.read_text(), drawn.stderr
+    assert not list(folder.glob("*.partial*"))
+
+for library, observable, words in (("library", "power", "| slice_ends | 1 |"), ("library_wheat", "angle", "| wall_friction | 14 |")):
+    told = responses(ROOT / "gap" / library, "--observable", observable)
+    assert told.returncode == 0 and words in told.stdout, told.stdout + told.stderr
