@@ -59,27 +59,18 @@ Isolability isolability(const TableModel& model, const Settings& settings) {
           result.separation(a, b) = std::max(result.separation(a, b), distance(model, e, s, model.effects[b]));
     }
   }
-  std::vector<Index> group(m);
-  for (Index a = 0; a < m; ++a) group[a] = a;
-  for (Index a = 0; a < m; ++a)
-    for (Index b = 0; b < a; ++b)
-      if (std::max(result.separation(a, b), result.separation(b, a)) <= settings.group_distance) {
-        const Index from = group[a], to = group[b];
-        std::replace(group.begin(), group.end(), from, to);
-      }
-  for (Index g = 0; g < m; ++g) {
-    std::vector<std::string> names;
-    for (Index a = 0; a < m; ++a)
-      if (group[a] == g) names.push_back(result.effects[a]);
-    if (!names.empty()) result.groups.push_back(names);
+  for (Index a = 0; a < m; ++a) {
+    result.groups.emplace_back();
+    for (Index b = 0; b < m; ++b)
+      if (a == b || std::max(result.separation(a, b), result.separation(b, a)) <= settings.group_distance)
+        result.groups.back().push_back(result.effects[b]);
   }
   return result;
 }
 
 std::vector<std::string> Isolability::group_of(const std::string& effect) const {
-  for (const auto& group : groups)
-    if (std::find(group.begin(), group.end(), effect) != group.end()) return group;
-  return {effect};
+  const auto at = std::find(effects.begin(), effects.end(), effect);
+  return at == effects.end() ? std::vector<std::string>{effect} : groups[at - effects.begin()];
 }
 
 bool Isolability::detectable(const std::string& effect) const {

@@ -131,7 +131,8 @@ json isolability_json(const Isolability& i, const Threshold& t, const std::strin
         j["separation"][i.effects[a]][i.effects[b]] =
             i.separation(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(b));
   }
-  j["groups"] = i.groups;
+  j["groups"] = json::object();
+  for (std::size_t a = 0; a < i.effects.size(); ++a) j["groups"][i.effects[a]] = i.groups[a];
   j["detectable"] = json::array();
   for (const std::string& e : i.effects)
     if (i.detectable(e)) j["detectable"].push_back(e);
@@ -172,8 +173,11 @@ void run_isolability(const GapOptions& o) {
   for (std::size_t a = 0; a < i.effects.size(); ++a)
     fmt::print("{:<18} {:>6.1f} sd from nothing{}\n", i.effects[a], i.detectability[static_cast<Eigen::Index>(a)],
                i.detectable(i.effects[a]) ? "" : "  not detectable");
-  for (const auto& group : i.groups)
-    if (group.size() > 1) fmt::print("not told apart: {}\n", fmt::join(group, ", "));
+  for (std::size_t a = 0; a < i.effects.size(); ++a) {
+    std::vector<std::string> others = i.groups[a];
+    others.erase(std::remove(others.begin(), others.end(), i.effects[a]), others.end());
+    if (!others.empty()) fmt::print("{} is not told apart from {}\n", i.effects[a], fmt::join(others, ", "));
+  }
   for (const std::string& note : q.model.notes) fmt::print("note: {}\n", note);
 }
 

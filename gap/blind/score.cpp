@@ -121,8 +121,7 @@ json score(const std::string& folder, const std::string& answers, const std::str
   const json sealed = read_json(isolability, "make it with vielto gap isolability");
   const Names detectable = sealed["detectable"];
   std::map<std::string, Names> group;
-  for (const auto& g : sealed["groups"])
-    for (const auto& name : g) group[name] = g.get<Names>();
+  for (const auto& [name, members] : sealed["groups"].items()) group[name] = members.get<Names>();
   const std::vector<Scored> cases = read_cases(folder, answers, shuffle);
 
   json result = {{"schema", 1}, {"cases", cases.size()}};

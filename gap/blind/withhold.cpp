@@ -79,7 +79,7 @@ class Maker {
     if (!seal_holds(request.isolability))
       throw BadInput(request.isolability, 0, "is not what its seal says", "seal it again");
     std::ifstream in(request.isolability);
-    groups_ = json::parse(in)["groups"].get<std::vector<std::vector<std::string>>>();
+    groups_ = json::parse(in)["groups"].get<std::map<std::string, std::vector<std::string>>>();
     u_.resize(library_model_.size());
     for (Index i = 0; i < u_.size(); ++i) u_[i] = table_.rows[i].u;
   }
@@ -111,11 +111,15 @@ class Maker {
       c.without = group_of(c.effects[0].first);
       add(c);
     }
-    for (std::size_t i = 0; i < strong.size() && static_cast<int>(i) < plan_.sham && groups_.size() > 1; ++i) {
+    for (std::size_t i = 0; i < strong.size() && static_cast<int>(i) < plan_.sham; ++i) {
       Case c = strong[strong.size() - 1 - i];
       c.kind = "sham";
-      do c.without = groups_[std::uniform_int_distribution<std::size_t>(0, groups_.size() - 1)(random_)];
-      while (c.without == group_of(c.effects[0].first));
+      // the group of another effect, which the true one does not belong to
+      std::vector<std::string> others;
+      for (const auto& [name, group] : groups_)
+        if (!share(name, c.effects[0].first)) others.push_back(name);
+      if (others.empty()) continue;
+      c.without = group_of(others[std::uniform_int_distribution<std::size_t>(0, others.size() - 1)(random_)]);
       add(c);
     }
     const auto any_effect = [&] {
@@ -128,7 +132,7 @@ class Maker {
     for (int i = 0, tries = 0; i < plan_.pairs && tries < 100 * plan_.pairs; ++tries) {
       const int truth = any_truth();
       const std::string a = any_effect().name, b = any_effect().name;
-      if (group_of(a) == group_of(b)) continue;
+      if (share(a, b)) continue;
       const auto s = strength_for(truth, a, plan_.levels[1].second, false),
                  t = strength_for(truth, b, plan_.levels[1].second, false);
       if (!s || !t) continue;
@@ -149,9 +153,12 @@ class Maker {
 
  private:
   std::vector<std::string> group_of(const std::string& effect) const {
-    for (const auto& group : groups_)
-      if (std::find(group.begin(), group.end(), effect) != group.end()) return group;
-    return {effect};
+    const auto found = groups_.find(effect);
+    return found == groups_.end() ? std::vector<std::string>{effect} : found->second;
+  }
+  bool share(const std::string& a, const std::string& b) const {
+    const auto group = group_of(a);
+    return std::find(group.begin(), group.end(), b) != group.end();
   }
 
   VectorXd change(const TableModel& model, const Effects& effects) const {
@@ -295,7 +302,7 @@ class Maker {
   TableModel library_model_;
   std::vector<Index> fit_;
   std::vector<TableModel> truths_;
-  std::vector<std::vector<std::string>> groups_;
+  std::map<std::string, std::vector<std::string>> groups_;  // effect -> itself and those it shares a group with
   VectorXd u_;
   std::vector<Case> cases_;
   std::string unreachable_;
