@@ -395,9 +395,20 @@ std::string verdict_sentence(const Diagnosis& d) {
         probability("no_gap"));
   if (d.verdict == "unknown")
     return "There is a gap, and none of the effects in the library nor any two of them explain it.";
-  if (d.verdict == "ambiguous")
-    return fmt::format("There is a gap; these effects explain it alike and these data do not tell them apart: {}.",
-                       fmt::join(d.group, ", "));
+  if (d.verdict == "ambiguous") {
+    constexpr std::size_t kSaid = 3;  // the whole group stands in the table below the sentence
+    std::vector<std::string> rivals;
+    for (std::size_t k = 0; k < std::min(kSaid, d.group.size()); ++k) {
+      const std::string& name = d.group[k];
+      double with_pairs = 0;
+      for (const ModelEvidence& m : d.models)
+        if (std::find(m.effects.begin(), m.effects.end(), name) != m.effects.end()) with_pairs += 100 * m.probability;
+      rivals.push_back(fmt::format("{} {:.0f} % ({:.0f} % with its pairs)", name, probability(name), with_pairs));
+    }
+    if (d.group.size() > kSaid) rivals.push_back(fmt::format("{} others", d.group.size() - kSaid));
+    return fmt::format("There is a gap, and these data do not settle its cause: {}; unknown {:.0f} %, no gap {:.0f} %.",
+                       fmt::join(rivals, ", "), probability("unknown"), probability("no_gap"));
+  }
   if (d.named.size() == 2)
     return fmt::format("There is a gap, explained by two effects together: {}, and {} (probability {:.0f} %).",
                        strength(0), strength(1), probability(d.named[0] + "+" + d.named[1]));
