@@ -216,6 +216,7 @@ TEST(GapPage, ShowsNoRunWithAnUnknownEffect) {
   std::ifstream in(VIELTO_SOURCE_DIR "/gap/answers/wheat-wall-B/diagnosis.json");
   nlohmann::ordered_json answer = nlohmann::ordered_json::parse(in);
   answer["verdict"] = "unknown";
+  answer["shrink_predicted"] = nullptr;  // as nothing is predicted of it
   const std::string page = diagnosis_page(answer, "wall B");
   EXPECT_NE(page.find("recalibrated only"), std::string::npos);
   EXPECT_EQ(page.find("with the effect"), std::string::npos);
