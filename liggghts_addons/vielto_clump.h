@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /* A grain's shape as a clump of spheres, for LIGGGHTS' particletemplate/multisphere.
 
-   File      `NAME.clump`: one sphere a line, `x y z r` in m, of the real grain; # begins a comment. Spheres may
-   overlap. Volume    of the union, counted once. Columns along z on a grid of kClumpColumns x kClumpColumns over the
-   spheres, exact in each column; a sphere comes out within 2e-5. LIGGGHTS' own way is Monte Carlo, 1e-3 at a million
-   tries. Scale     the union gets the volume of a sphere of the diameter asked for, the mass of that sphere, and the
-   tensor of inertia of a homogeneous body of its shape about its centre of mass. */
+   File: `NAME.clump`, one sphere a line, `x y z r` in m, of the real grain; # begins a comment. Spheres may overlap.
+
+   Volume: of the union, counted once. Columns along z on a grid of kClumpColumns x kClumpColumns over the spheres,
+   exact in each column; a sphere comes out within 2e-5. LIGGGHTS' own way is Monte Carlo, 1e-3 at a million tries.
+
+   Scale: the union gets the volume of a sphere of the diameter asked for, the mass of that sphere, and the tensor of
+   inertia of a homogeneous body of its shape about its centre of mass. */
 #ifndef VIELTO_CLUMP_H
 #define VIELTO_CLUMP_H
 

@@ -21,4 +21,6 @@ mv blind/truth blind/seals.sha256 hidden/blind/
 mv hidden/truth .
 mv hidden/blind/* blind/
 gap-score blind --answers answers --sealed sealed/isolability.json --out score.json
-gap-score blind --answers answers --sealed sealed/isolability.json --shuffle 1 --out shuffled.json
+for k in 1 2 3 4 5 6 7 8; do
+  gap-score blind --answers answers --sealed sealed/isolability.json --shuffle $k --out shuffled$k.json
+done
