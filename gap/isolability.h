@@ -5,8 +5,8 @@
 //   d(a, s; b) = min over t of sqrt(D' C^-1 D),  D = r_a(s) - r_b(t),
 // C everything uncertain: C(0) and both effects' emulator and shape errors. separation(a, b) = max over s of d. Two
 // effects share a group if separation(a, b) and separation(b, a) are both at most 3: no strength of one lies farther
-// from the other. The group of an effect is itself and those it shares one with; groups overlap (a and c may both be near
-// b and far from each other). detectability(a) = max over s of sqrt(r' C^-1 r) with C = C(0)
+// from the other. The group of an effect is itself and those it shares one with; groups overlap (a and c may both be
+// near b and far from each other). detectability(a) = max over s of sqrt(r' C^-1 r) with C = C(0)
 // + emulator_a(s): above 4 the effect is detectable. Distances depend on conditions, u and covariance of the rows, not
 // on their values.
 #pragma once

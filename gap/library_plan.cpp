@@ -286,7 +286,8 @@ Collected collect_library(const LibraryPlan& plan, const std::string& results, c
       rows.push_back(row);
     }
     const std::string power = (fs::path(results) / "runs" / run.name / "post" / "power.json").string();
-    if (fs::exists(power)) sources += sources_of_run(run.name, read_json(power), fs::path(power).replace_filename("phase.csv").string());
+    if (fs::exists(power))
+      sources += sources_of_run(run.name, read_json(power), fs::path(power).replace_filename("phase.csv").string());
     ++collected.runs;
   }
   if (collected.runs == 0)

@@ -73,10 +73,12 @@ std::string sources_rows(const json& sources, const std::string& kind) {
 std::string sources_table(const json& sources) {
   std::string text;
   for (const auto& [kind, words] :
-       {std::pair("part", "Parts of the simulated rotor torque; drum: what its wall takes back, the rest is the weight "
-                          "of the grain."),
-        std::pair("phase", "The paddles' torque by the place of a paddle in its turn; 0 deg is the lowest point, from "
-                           "which it rises."),
+       {std::pair("part",
+                  "Parts of the simulated rotor torque; drum: what its wall takes back, the rest is the weight "
+                  "of the grain."),
+        std::pair("phase",
+                  "The paddles' torque by the place of a paddle in its turn; 0 deg is the lowest point, from "
+                  "which it rises."),
         std::pair("loss", "Where the work goes: dashpots (normal, tangential), sliding, rolling, twisting.")}) {
     const std::string rows = sources_rows(sources, kind);
     if (rows.empty()) continue;

@@ -27,8 +27,8 @@ constexpr const char* kSourcesHeader = "test,kind,source,torque_Nm\n";
 // The rows of one run, from its power.json and its phase.csv, if that is there.
 std::string sources_of_run(const std::string& test, const nlohmann::json& power, const std::string& phase_file);
 
-// [{speed, fill, kind, source, share, u, effects: [{name, strength, change, u}]}]; empty without sources.csv. `effects`:
-// those that are shown, at the largest strength that was run.
+// [{speed, fill, kind, source, share, u, effects: [{name, strength, change, u}]}]; empty without sources.csv.
+// `effects`: those that are shown, at the largest strength that was run.
 nlohmann::ordered_json sources_json(const Library& library, const std::vector<std::string>& effects);
 
 }  // namespace vielto::gap

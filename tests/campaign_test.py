@@ -68,7 +68,7 @@ with tempfile.TemporaryDirectory(prefix="vielto-campaign-") as name:
     # a study that has changed is not given the old runs' numbers
     study.write_text(STUDY.replace("fast,mixer,1.5,0.05", "fast,mixer,1.5,0.06"))
     changed = subprocess.run(campaign(study, out), capture_output=True, text=True)
-    assert changed.returncode == 2 and "1 finished runs are out of date, fast was made with fill 0.05" in changed.stderr, changed.stderr
+    assert changed.returncode == 2 and "finished runs out of date: 1; fast was made with fill 0.05" in changed.stderr, changed.stderr
     assert tables(out) == tables(folder / "whole")
     again = subprocess.run([*campaign(study, out), "--again"], capture_output=True, text=True)
     assert again.returncode == 0, again.stdout + again.stderr

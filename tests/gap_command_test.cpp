@@ -258,7 +258,8 @@ TEST_F(GapCommand, IsolabilityIsSealedAndItsThresholdIsTaken) {
     const json& group = i["groups"][a];
     EXPECT_NE(std::find(group.begin(), group.end(), a), group.end());
     for (const auto& [b, distance] : separations.items())
-      EXPECT_EQ(std::find(group.begin(), group.end(), b) != group.end(), distance <= 3 && i["separation"][b][a] <= 3) << a << " " << b;
+      EXPECT_EQ(std::find(group.begin(), group.end(), b) != group.end(), distance <= 3 && i["separation"][b][a] <= 3)
+          << a << " " << b;
   }
   EXPECT_EQ(content(folder_ / "sealed/isolability.svg").rfind("<svg", 0), 0u);
   // Values do not matter, conditions and u do.

@@ -90,7 +90,8 @@ class GapLibraryPlan : public GapFolder {
                         {"drum", {{"torque_Nm", -2.0}}}};
     // the whole loss is the rotor's work, 2 pi n times its torque, and sliding has all that cohesion adds
     const double watt = 2 * std::acos(-1) * std::stod(run.at("speed"));
-    const json losses = {{"normal", {{"power_W", 1.0 * watt}}}, {"sliding", {{"power_W", (cohesive ? 6.0 : 3.0) * watt}}}};
+    const json losses = {{"normal", {{"power_W", 1.0 * watt}}},
+                         {"sliding", {{"power_W", (cohesive ? 6.0 : 3.0) * watt}}}};
     write("results/runs/" + run.at("run") + "/post/power.json",
           json{{"speed", std::stod(run.at("speed"))}, {"parts", parts}, {"losses", losses}}.dump());
     // a paddle meets grain from 30 deg before to 60 deg after the lowest point, which is at 270 deg
@@ -179,8 +180,9 @@ TEST_F(GapLibraryPlan, CollectsWhatIsDoneAndNamesTheRest) {
   EXPECT_EQ(gap("diagnose t.csv --library library --draws 20 --out answer"), 0) << err_;
   // Three of four parts of the baseline's torque are the paddles'.
   const json d = json::parse(content(folder_ / "answer/diagnosis.json"));
-  const std::map<std::string, double> shares = {{"paddles", 0.75}, {"stems", 0.25}, {"drum", -0.5}, {"normal", 0.25}, {"sliding", 0.75},
-                                                {"-60 to 0 deg", 0.25}, {"0 to 60 deg", 0.5}};
+  const std::map<std::string, double> shares = {{"paddles", 0.75},   {"stems", 0.25},   {"drum", -0.5},
+                                                {"normal", 0.25},    {"sliding", 0.75}, {"-60 to 0 deg", 0.25},
+                                                {"0 to 60 deg", 0.5}};
   ASSERT_EQ(d["sources"].size(), 2u * (3 + 2 + 6));
   for (const json& s : d["sources"]) {
     const auto share = shares.find(s["source"]);

@@ -164,8 +164,8 @@ TEST_P(Stock, SlidesWithTheTangentOfTheMeanAngle) {
 }
 
 /* A grain that rolls on the plane is held back by the greatest moment, mu_r F_n R 2 w/(1 + w) with the smaller mu_r
-   and what the wall adds to it: 5/7 of it over m R. Tolerance: the tangential spring, which nothing damps, swings about its load f = m a with the
-   amplitude f/sqrt(k_t 2/7 m) of the speed, twice. */
+   and what the wall adds to it: 5/7 of it over m R. Tolerance: the tangential spring, which nothing damps, swings about
+   its load f = m a with the amplitude f/sqrt(k_t 2/7 m) of the speed, twice. */
 TEST_P(Stock, RollsAgainstTheGreatestMoment) {
   const double v = 0.4, a = 5.0 / 7 * (rollGrain + wallRolling) * wall.arm * g;
   Liggghts run;

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Each rig against its reference file, cases/RIG/reference.csv: the numbers of eight seeds of a coarse run (scripts/reference,
-// settings in workflow/studies/reference.csv). A ninth seed, run here through the rig's command line, must lie where one
-// more draw of the same lot lies: mean +- t s sqrt(1 + 1/8), t Student's quantile for one number out of the twelve being
-// outside once in a hundred times. Not bit by bit: a change of round-off leads to another bed, and to another draw.
+// Each rig against its reference file, cases/RIG/reference.csv: the numbers of eight seeds of a coarse run
+// (scripts/reference, settings in workflow/studies/reference.csv). A ninth seed, run here through the rig's command
+// line, must lie where one more draw of the same lot lies: mean +- t s sqrt(1 + 1/8), t Student's quantile for one
+// number out of the twelve being outside once in a hundred times. Not bit by bit: a change of round-off leads to
+// another bed, and to another draw.
 #include <nlohmann/json.hpp>
 
 #include "mean_uncertainty.h"
@@ -47,7 +48,8 @@ TEST_P(RigReference, ANinthSeedIsOneMoreDraw) {
   for (const Row& row : table(source + "/workflow/studies/reference.csv"))
     if (row.at("run") == GetParam().name + "_s1")
       for (const auto& [name, value] : row)
-        if (name != "run" && name != "rig" && name != "seed" && !value.empty()) options += fmt::format("-var {} {} ", name, value);
+        if (name != "run" && name != "rig" && name != "seed" && !value.empty())
+          options += fmt::format("-var {} {} ", name, value);
   ASSERT_FALSE(options.empty());
   Rig rig(GetParam().rig);
   rig.must("run", options, fmt::format("-var seed {}", seed));
