@@ -42,8 +42,10 @@ class GapBlind : public testing::Test {
     std::ofstream(folder_.string() + ".toml") << "no_effect_draws = 3\nweak = 2.0\nmiddle = 4.0\nstrong = "
                                                  "8.0\ntruths_per_effect = 1\ndraws = 1\nremoved = 5\n"
                                                  "sham = 2\npairs = 2\nfrom_prior = 6\nreachable = 0.7\n";
-    status_ = run(fmt::format("'{}/tests/gap_toy_blind.sh' '{}' 4 '{}.toml' 200", VIELTO_SOURCE_DIR, folder_.string(),
-                              folder_.string()));
+    // paths as a person gives them, from where they stand
+    const std::string name = folder_.filename().string();
+    status_ = run(fmt::format("cd '{}' && '{}/tests/gap_toy_blind.sh' {} 4 {}.toml 200", folder_.parent_path().string(),
+                              VIELTO_SOURCE_DIR, name, name));
   }
   static void TearDownTestSuite() {
     fs::remove_all(folder_);

@@ -3,7 +3,7 @@
 # Needs build/bin and build/tests on the PATH; made new each time.
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
-folder=$1 truths=$2 plan=$3 draws=${4:-1000}
+folder=$(realpath -m "$1") truths=$2 plan=$(realpath "$3") draws=${4:-1000}
 rm -rf "$folder"
 mkdir -p "$folder/gap"
 cp -r "$here"/../gap/effects "$here"/../gap/*.toml "$folder/gap/"
