@@ -8,6 +8,7 @@
 #include <vtkGlyph3DMapper.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
+#include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkPolyDataMapper.h>
 #include <vtkPolyDataReader.h>
@@ -59,8 +60,11 @@ std::optional<Dump> last_dump(const fs::path& folder, const char* type) {
   return last;
 }
 
-// Grains with the point data `speed`, m/s, and `diameter`, m.
-vtkNew<vtkPolyData> read_grains(const fs::path& path) {
+// A heap's cylinder has been lifted off it, and the fixed grains of a rough base (centres under z = 0) would hide it.
+bool is_heap(const fs::path& run) { return fs::exists(run / "heap.csv"); }
+
+// Grains with the point data `speed`, m/s, and `diameter`, m; with `over_base` those with their centres over z = 0.
+vtkNew<vtkPolyData> read_grains(const fs::path& path, bool over_base) {
   vtkNew<vtkPolyDataReader> reader;
   reader->SetFileName(path.c_str());
   reader->ReadAllFieldsOn();
@@ -74,13 +78,17 @@ vtkNew<vtkPolyData> read_grains(const fs::path& path) {
   vtkNew<vtkDoubleArray> speed, diameter;
   speed->SetName("speed");
   diameter->SetName("diameter");
+  vtkNew<vtkPoints> centres;
   for (vtkIdType i = 0; i < radius->GetNumberOfTuples(); ++i) {
+    const double* const x = reader->GetOutput()->GetPoint(i);
+    if (over_base && x[2] < 0) continue;
+    centres->InsertNextPoint(x);
     const double* u = v->GetTuple3(i);
     speed->InsertNextValue(std::hypot(u[0], u[1], u[2]));
     diameter->InsertNextValue(2 * radius->GetTuple1(i));
   }
   vtkNew<vtkPolyData> grains;
-  grains->SetPoints(reader->GetOutput()->GetPoints());
+  grains->SetPoints(centres);
   grains->GetPointData()->AddArray(speed);
   grains->GetPointData()->AddArray(diameter);
   return grains;
@@ -137,7 +145,7 @@ bool add_parts(vtkRenderer* renderer, const fs::path& run, std::optional<double>
   bool any = false;
   std::error_code missing;
   for (const auto& file : fs::directory_iterator(run / "mesh", missing)) {
-    if (file.path().extension() != ".stl") continue;
+    if (file.path().extension() != ".stl" || (is_heap(run) && file.path().stem() == "cylinder")) continue;
     const bool drum = file.path().stem() == "drum";
     renderer->AddActor(part_actor(file.path(), drum ? 0 : degrees.value_or(0), drum ? kDrum : degrees ? 1 : kAnyPart));
     any = true;
@@ -145,10 +153,13 @@ bool add_parts(vtkRenderer* renderer, const fs::path& run, std::optional<double>
   return any;
 }
 
-void add_grains(vtkRenderer* renderer, vtkPolyData* grains) {
+// True if they are coloured by speed; grains at rest have none worth a colour.
+bool add_grains(vtkRenderer* renderer, vtkPolyData* grains) {
+  constexpr double kRest = 1e-3;  // m/s
   double range[2] = {0, 0};
   grains->GetPointData()->GetArray("speed")->GetRange(range);
-  const auto colours = speed_colours(range[1] > 0 ? range[1] : 1);
+  const bool moving = range[1] > kRest;
+  const auto colours = speed_colours(moving ? range[1] : 1);
   vtkNew<vtkSphereSource> sphere;
   sphere->SetRadius(0.5);
   sphere->SetThetaResolution(20);
@@ -161,9 +172,12 @@ void add_grains(vtkRenderer* renderer, vtkPolyData* grains) {
   spheres->SetScalarModeToUsePointFieldData();
   spheres->SelectColorArray("speed");
   spheres->SetLookupTable(colours);
+  if (!moving) spheres->ScalarVisibilityOff();
   vtkNew<vtkActor> actor;
   actor->SetMapper(spheres);
+  actor->GetProperty()->SetColor(0.86, 0.72, 0.42);  // straw
   renderer->AddActor(actor);
+  if (!moving) return false;
 
   vtkNew<vtkScalarBarActor> bar;
   bar->SetLookupTable(colours);
@@ -182,6 +196,7 @@ void add_grains(vtkRenderer* renderer, vtkPolyData* grains) {
   bar->SetWidth(0.11);
   bar->SetHeight(0.65);
   renderer->AddActor2D(bar);
+  return true;
 }
 
 }  // namespace
@@ -199,8 +214,15 @@ bool draw_rig(const std::string& run, const TorqueRecord* record, const std::str
   vtkNew<vtkRenderer> renderer;
   renderer->SetBackground(1, 1, 1);
   if (!add_parts(renderer, run, record ? std::optional(360 * turns) : std::nullopt)) return false;
-  if (dump) add_grains(renderer, read_grains(dump->path));
-  renderer->AddActor2D(caption(dump ? "Grains in the rig, coloured by speed" : "The rig", 34, 40, kHeight - 70));
+  const char* title = "The rig";
+  double shown[6];
+  renderer->ComputeVisiblePropBounds(shown);
+  if (dump) {
+    const auto grains = read_grains(dump->path, is_heap(run));
+    title = add_grains(renderer, grains) ? "Grains in the rig, coloured by speed" : "Grains in the rig, at rest";
+    if (is_heap(run)) grains->GetBounds(shown);
+  }
+  renderer->AddActor2D(caption(title, 34, 40, kHeight - 70));
   if (record) {
     const TorqueRecordHeader& h = record->header;
     renderer->AddActor2D(caption(
@@ -210,13 +232,16 @@ bool draw_rig(const std::string& run, const TorqueRecord* record, const std::str
         24, 40, kHeight - 110));
   }
 
-  // From the side and a little above, along the shaft's axis for the most part.
+  // A little from above; a shaft from its end for the most part, a shear box across the direction of shear (x).
   vtkCamera* camera = renderer->GetActiveCamera();
-  camera->SetPosition(-1, -0.55, 0.35);
+  if (fs::exists(fs::path(run) / "shear.csv"))
+    camera->SetPosition(-0.35, -1, 0.2);
+  else
+    camera->SetPosition(-1, -0.55, 0.35);
   camera->SetFocalPoint(0, 0, 0);
   camera->SetViewUp(0, 0, 1);
   camera->SetViewAngle(25);
-  renderer->ResetCamera();
+  renderer->ResetCamera(shown);
   camera->Zoom(1.15);
   camera->SetWindowCenter(0, 0.08);
 

@@ -111,6 +111,22 @@ with tempfile.TemporaryDirectory() as name:
     assert done.returncode == 0, done.stderr
     assert all(float(m["frictionAngle"]) < 30 for m in csv.DictReader((folder / "part.posterior.csv").open()))
 
+    # a rig's own variables go to its runs alone, into the design and into the check of the numbers
+    second = """[[run]]
+name = "shear"
+rig = "shearbox"
+vars = {fillFrictionAngle = "phi / 2"}
+"""
+    (folder / "two.toml").write_text(PLAN.replace("[[target]]", second + "[[target]]"))
+    assert calibrate("design", folder / "two.toml", "--out", folder / "two.csv").returncode == 0
+    two = list(csv.DictReader((folder / "two.csv").open()))
+    assert [row["run"] for row in two[:2]] == ["repose_1", "shear_1"] and len(two) == 64, two[:2]
+    for row in two:
+        if row["rig"] == "repose":
+            assert row["fillFrictionAngle"] == "", row
+        else:  # both printed to six digits
+            assert abs(float(row["fillFrictionAngle"]) - float(row["frictionAngle"]) / 2) < 1e-4, row
+
     bad = calibrate("fit", folder / "plan.toml", folder / "none.csv", "--out", folder / "y.posterior.csv")
     assert bad.returncode == 2 and "none.csv: No such file" in bad.stderr, bad
     (folder / "few.csv").write_text("".join((folder / "numbers.csv").read_text().splitlines(True)[:6]))

@@ -25,7 +25,10 @@ void post_drum(const fs::path& path, const PostOptions& options) {
   write_whole_file((folder / "looks.csv").string(), bed_looks_csv(bed));
   write_whole_file((folder / "table.txt").string(), table);
   write_whole_file((folder / "drum.json").string(), json);
-  if (options.pictures) draw_bed(bed, (folder / "bed.png").string());
+  if (options.pictures) {
+    draw_bed(bed, (folder / "bed.png").string());
+    draw_rig(path.parent_path().string(), nullptr, (folder / "grains.png").string());
+  }
   std::fputs((options.json ? json : table).c_str(), stdout);
 }
 

@@ -26,7 +26,10 @@ void post_repose(const fs::path& path, const PostOptions& options) {
   write_whole_file((folder / "profile.csv").string(), repose_profile_csv(fit));
   write_whole_file((folder / "table.txt").string(), table);
   write_whole_file((folder / "repose.json").string(), json);
-  if (options.pictures) draw_heap(heap, fit, (folder / "heap.png").string());
+  if (options.pictures) {
+    draw_heap(heap, fit, (folder / "heap.png").string());
+    draw_rig(path.parent_path().string(), nullptr, (folder / "grains.png").string());
+  }
   std::fputs((options.json ? json : table).c_str(), stdout);
 }
 

@@ -24,7 +24,10 @@ void post_shear(const fs::path& path, const PostOptions& options) {
   write_whole_file((folder / "curve.csv").string(), shear_curve_csv(result));
   write_whole_file((folder / "table.txt").string(), table);
   write_whole_file((folder / "shear.json").string(), json);
-  if (options.pictures) draw_shear(record, result, (folder / "shear.png").string());
+  if (options.pictures) {
+    draw_shear(record, result, (folder / "shear.png").string());
+    draw_rig(path.parent_path().string(), nullptr, (folder / "grains.png").string());
+  }
   for (const std::string& warning : result.warnings)
     std::fprintf(stderr, "vielto: WARNING: %s: %s\n", path.string().c_str(), warning.c_str());
   std::fputs((options.json ? json : table).c_str(), stdout);
