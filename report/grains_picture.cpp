@@ -220,7 +220,12 @@ bool draw_rig(const std::string& run, const TorqueRecord* record, const std::str
   if (dump) {
     const auto grains = read_grains(dump->path, is_heap(run));
     title = add_grains(renderer, grains) ? "Grains in the rig, coloured by speed" : "Grains in the rig, at rest";
-    if (is_heap(run)) grains->GetBounds(shown);
+    if (is_heap(run)) {
+      double diameter[2];
+      grains->GetPointData()->GetArray("diameter")->GetRange(diameter);
+      grains->GetBounds(shown);  // of the centres
+      for (int i = 0; i < 6; ++i) shown[i] += (i % 2 ? 0.5 : -0.5) * diameter[1];
+    }
   }
   renderer->AddActor2D(caption(title, 34, 40, kHeight - 70));
   if (record) {
