@@ -32,6 +32,17 @@ with tempfile.TemporaryDirectory(prefix="vielto-responses-") as name:
     assert f"| shape | 0.2 | speed 0.5, fill 0.1 | +50 ± {shape:.0f} % |" in told.stdout, told.stdout
     assert f"| frictionAngle 25 | 0 | speed 0.5, fill 0.1 | -20 ± {member:.0f} % |" in told.stdout, told.stdout
 
+    # the family: members 8, 12, 13 are -20, +20, +30 %: mean +10 %, variance 700, less that of the runs (20, 12, 13 %)
+    assert "family" not in told.stdout
+    for k, v in ((26, 12), (27, 13)):
+        with open(folder / "design.csv", "a") as file:
+            file.write(f"m{k},none,0,1,m{k},{k}\n")
+        with open(folder / "observations.csv", "a") as file:
+            file.write(f"m{k},fit,mixer,power_loaded,{v + 3},0.1,W,0.5,0.1,,,,,,m\nm{k},fit,mixer,power_idle,3,0,W,0.5,0.1,,,,,,m\n")
+    told = responses(folder)
+    sd = math.sqrt(700 - (20**2 + 12**2 + 13**2) / 3)
+    assert f"(3 members): +10 %, 95 % band {10 - 2 * sd:+.0f} … {10 + 2 * sd:+.0f} % at speed 0.5, fill 0.1" in told.stdout, told.stdout
+
     for words, fault in (((folder, "--observable", "angle"), "there is no angle in it; --observable takes power_idle, power_loaded"),
                          ((folder / "none",), "name a response library")):
         refused = responses(*words)
