@@ -211,7 +211,9 @@ LibraryPlan LibraryPlan::read(const std::string& path, const std::vector<Effect>
       row.role = "fit";
       row.observable = t.text("observable");
       row.unit = *unit;
-      for (const auto& [name, value] : numbers_by_name(r)) {
+      toml::table plain = r.raw();
+      plain.erase("slopes");
+      for (const auto& [name, value] : numbers_by_name(TomlTable(path, plain))) {
         if (name == "value")
           row.value = value;
         else if (const auto member = condition_member(name))
@@ -223,6 +225,23 @@ LibraryPlan LibraryPlan::read(const std::string& path, const std::vector<Effect>
       row.u = std::max(1e-6, 1e-6 * std::fabs(row.value));  // not used: bench rows are not simulated
       row.test = fmt::format("bench_{}{}", row.observable, plan.bench.size() + 1);
       plan.bench.push_back(row);
+      plan.bench_parameters.push_back(plan.baseline);
+      if (!r.has("slopes")) continue;
+      const TomlTable slopes = r.table("slopes");
+      for (const auto& [name, slope] : numbers_by_name(slopes))
+        if (plan.baseline.count(name) == 0)
+          slopes.refuse(name, "is no calibrated parameter", "name columns of the family's file");
+      const Observation own = row;
+      for (const std::size_t at : members) {
+        row.value = own.value;
+        std::map<std::string, double> parameters;
+        for (std::size_t k = 0; k < family.names.size(); ++k) parameters[family.names[k]] = family.members[at][k];
+        for (const auto& [name, slope] : numbers_by_name(slopes))
+          row.value += slope * (parameters[name] - plan.baseline.at(name));
+        row.test = fmt::format("{}_member{}", own.test, at + 1);
+        plan.bench.push_back(row);
+        plan.bench_parameters.push_back(parameters);
+      }
     }
   }
   return plan;
@@ -292,9 +311,11 @@ Collected collect_library(const LibraryPlan& plan, const std::string& results, c
   }
   if (collected.runs == 0)
     throw BadInput(results, 0, "holds no run of the plan", "run its study with scripts/campaign");
-  for (const Observation& row : plan.bench)
+  for (std::size_t i = 0; i < plan.bench.size(); ++i) {
+    const Observation& row = plan.bench[i];
     design += fmt::format("{},none,0,1,{}{}\n", row.test, sha256_of_text(fmt::format("{} {}", row.test, row.value)),
-                          parameters_text(plan.baseline));
+                          parameters_text(plan.bench_parameters[i]));
+  }
   const auto path = [&](const char* name) { return (fs::path(folder) / name).string(); };
   write_whole_file(path("design.csv"), design);
   write_observations(path("observations.csv"), rows);

@@ -18,7 +18,7 @@
 //   seeds = 1                                  optional
 //   [[bench]]                                  what the cards say, not simulated
 //   observable = "shaft_speed"
-//   rows = [{speed = 0.48, value = 0.48}]
+//   rows = [{speed = 0.48, value = 0.48}]      slopes = {PARAMETER = d value/d PARAMETER}: how it goes with calibrated ones
 //
 // Errors: BadInput with file, line and key.
 #pragma once
@@ -46,7 +46,8 @@ struct LibraryPlan {
   std::string family_file;
   std::map<std::string, double> baseline;  // the family's parameters as the cards state them
   std::vector<LibraryRun> runs;
-  std::vector<Observation> bench;
+  std::vector<Observation> bench;  // of the baseline, and of each member for rows with slopes
+  std::vector<std::map<std::string, double>> bench_parameters;
   std::vector<Rig> rigs;
 
   static LibraryPlan read(const std::string& path, const std::vector<Effect>& effects, const std::string& rigs_file,

@@ -193,6 +193,38 @@ TEST_F(GapLibraryPlan, CollectsWhatIsDoneAndNamesTheRest) {
     EXPECT_NE(page.find(words), std::string::npos) << words;
 }
 
+// A bench row that goes with calibrated parameters is stated for each member too: half a degree of the wall for one of the grain.
+TEST_F(GapLibraryPlan, BenchRowsGoWithTheFamily) {
+  std::string text = kPlan;
+  const std::string row = "{value = 25}";
+  text.replace(text.find(row), row.size(), "{value = 25, slopes = {frictionAngle = 0.5}}");
+  write("library/plan.toml", text);
+  ASSERT_EQ(plan(), 0) << err_;
+  for (const auto& run : table(folder_ / "study.csv")) finish(run, script_hash());
+  ASSERT_EQ(collect(), 0) << err_;
+  const double own =
+      vielto::ParFile::read(VIELTO_SOURCE_DIR "/materials/hulled_millet.par").number("frictionAngle");
+  std::map<std::string, double> friction;
+  for (const auto& run : table(folder_ / "library/design.csv"))
+    friction[run.at("test")] = std::stod(run.at("frictionAngle"));
+  const auto bench = table(folder_ / "library/bench.csv");
+  ASSERT_EQ(bench.size(), 3u);
+  EXPECT_EQ(bench[0].at("test"), "bench_wall_angle1");
+  EXPECT_EQ(bench[1].at("test"), "bench_wall_angle1_member2");
+  EXPECT_NE(friction.at(bench[1].at("test")), friction.at(bench[2].at("test")));
+  for (const auto& b : bench)
+    EXPECT_NEAR(std::stod(b.at("value")), 25 + 0.5 * (friction.at(b.at("test")) - own), 1e-4) << b.at("test");
+  write("t.csv",
+        "test,role,apparatus,observable,value,u,unit,speed,fill,moisture,normal_stress,shear_velocity,tilt,wall,"
+        "material\n"
+        "a,fit,mixer,power,21,0.5,W,0.5,0.1,,,,,,millet\nb,fit,bench,wall_angle,25,0.5,deg,,,,,,,,\n");
+  EXPECT_EQ(gap("diagnose t.csv --library library --draws 20 --out answer"), 0) << err_;
+
+  write("library/plan.toml", text.replace(text.find("{frictionAngle"), 14, "{frictionAngel"));
+  EXPECT_EQ(plan(), 2);
+  expect_one_line("is no calibrated parameter");
+}
+
 TEST_F(GapLibraryPlan, RefusesRunsOfAnotherScript) {
   ASSERT_EQ(plan(), 0) << err_;
   for (const auto& run : table(folder_ / "study.csv")) finish(run, std::string(64, '0'));
