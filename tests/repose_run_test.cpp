@@ -60,6 +60,16 @@ TEST(ReposeRun, TakesClumps) {
   EXPECT_EQ(nlohmann::json::parse(rig.read("clumps/post/repose.json"))["grains"], spheres.rows.size());
 }
 
+// Clumps are put in over several runs: the fixed grains of a rough base are there before the first falls, and none gets through.
+TEST(ReposeRun, HoldsClumpsOnARoughBase) {
+  Rig rig("repose");
+  rig.must("clumps", coarse_heap, "-var grain fodder_corn -var clump yes -var fillHeight 0.02 -var base rough -var baseGrain 0.6 -var baseWidth 0.2");
+  const Table spheres = rig.csv("clumps/heap.csv");
+  EXPECT_EQ(spheres.rows.size() % 5, 0u);
+  EXPECT_GT(spheres.rows.size(), 5 * 100u);
+  for (std::size_t k = 0; k < spheres.rows.size(); k++) EXPECT_GT(spheres.at(k, "z_m"), 0);
+}
+
 TEST(ReposeRun, IsDecidedByItsSeed) {
   Rig rig("repose");
   const std::string small = "-var fillHeight 0.02 ";
@@ -110,6 +120,7 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"BaseTooSmall", "-var baseWidth 0.04", {"vielto geometry", "failed"}},
         Refusal{"NoClump", "-var clump yes", {"hulled_millet.clump", "missing"}},
         Refusal{"UnknownShape", "-var clump maybe", {"clump is 'maybe'", "no or yes"}},
+        Refusal{"ClumpsFallThrough", "-var grain hulled_barley -var clump yes -var base rough", {"fall through", "baseGrain"}},
         Refusal{"ClumpsInAir", "-var grain fodder_corn -var clump yes -var airDrag 1", {"airDrag is 1", "clump no"}},
         Refusal{"ClumpsOfCohFrict", "-var grain fodder_corn -var clump yes -var law cohfrict", {"law vielto", "clump no"}},
         Refusal{"ClumpsWithRollingDashpot", "-var grain fodder_corn -var clump yes -var rollingDashpot on", {"rollingDashpot", "clump no"}},
