@@ -110,15 +110,18 @@ void add_rig(LibraryPlan& plan, const TomlTable& t, const std::vector<Effect>& e
     }
   }
   std::vector<std::map<std::string, std::string>> conditions;
+  std::vector<int> seeds_at;
   for (const TomlTable& c : tables_of(t, "conditions")) {
     conditions.push_back(common);
+    seeds_at.push_back(c.has("seeds") ? whole_of(c, "seeds", 1, 100) : seeds);
     for (const auto& [name, value] : numbers_by_name(c)) {
+      if (name == "seeds") continue;
       const auto var = rig.vars.find(name);
       if (var == rig.vars.end()) c.refuse(name, "is no condition of this rig", "see gap/rigs.toml");
       conditions.back()[var->second] = number_text(value);
     }
   }
-  if (conditions.empty()) conditions.push_back(common);
+  if (conditions.empty()) conditions.push_back(common), seeds_at.push_back(seeds);
   for (const std::string& name : plan.parameter_names)
     if (rig.base.count(name) == 0)
       throw BadInput(plan.family_file, 1, fmt::format("'{}' is no parameter of {}", name, rig.name),
@@ -140,8 +143,9 @@ void add_rig(LibraryPlan& plan, const TomlTable& t, const std::vector<Effect>& e
     run.settings = std::move(settings);
     plan.runs.push_back(std::move(run));
   };
-  for (int s = 0; s < seeds; ++s)
-    for (std::size_t c = 0; c < conditions.size(); ++c) add(c, "none", s + 1, {"", "", "none", 0, 0, own, {}});
+  for (int s = 0; s < *std::max_element(seeds_at.begin(), seeds_at.end()); ++s)
+    for (std::size_t c = 0; c < conditions.size(); ++c)
+      if (s < seeds_at[c]) add(c, "none", s + 1, {"", "", "none", 0, 0, own, {}});
   if (t.has("members_at"))
     for (std::size_t m = 0; m < members.size(); ++m) {
       const std::size_t at = members[m];

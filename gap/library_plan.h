@@ -9,7 +9,7 @@
 //   [[rig]]
 //   name = "mixer"                             of gap/rigs.toml
 //   settings = {grainDiameter = "0.012"}       -var of all its runs
-//   conditions = [{speed = 0.48, fill = 0.1}]  each with its baseline
+//   conditions = [{speed = 0.48, fill = 0.1}]  each with its baseline; seeds = 8 in one: its own number of seeds
 //   members_at = [1]                           numbers of the conditions at which the members are run, one seed each
 //   [[rig.effect]]                             may come several times for one effect
 //   name = "cohesion"

@@ -143,6 +143,18 @@ TEST_F(GapLibraryPlan, TheStudyHoldsBaselineMembersAndEffects) {
   EXPECT_EQ(members, 2);
 }
 
+TEST_F(GapLibraryPlan, AConditionMayHaveSeedsOfItsOwn) {
+  std::string text = kPlan;
+  const std::string one = "{speed = 1.5, fill = 0.2}";
+  write("library/plan.toml", text.replace(text.find(one), one.size(), "{speed = 1.5, fill = 0.2, seeds = 8}"));
+  ASSERT_EQ(plan(), 0) << err_;
+  std::map<std::string, int> seeds;
+  for (const auto& row : table(folder_ / "study.csv"))
+    if (row.at("run").find("_none_") != std::string::npos) ++seeds[row.at("speed")];
+  EXPECT_EQ(seeds["0.5"], 6);
+  EXPECT_EQ(seeds["1.5"], 8);
+}
+
 // The drum has a stiffness of its own, which holds over the card's: half a decade more is half a decade of the drum's.
 TEST_F(GapLibraryPlan, AnEffectStartsFromWhatTheRigItselfStates) {
   write("library/plan.toml",
