@@ -261,6 +261,7 @@ Diagnosis diagnose(const TableModel& model, const Threshold& threshold, const Se
   }
   d.absorbable = absorbable_part(fit, gap);
   d.where = locate(fit);
+  d.trends = trends_of(fit);
 
   // What would be said with other assumptions; the threshold stays.
   const auto vary = [&](const std::string& change, const TableModel& changed, const Settings& other) {
@@ -320,6 +321,12 @@ nlohmann::ordered_json shrink_json(const Shrink& s) {
 
 namespace {
 
+nlohmann::ordered_json parts_json(const std::vector<std::pair<std::string, double>>& parts) {
+  nlohmann::ordered_json j = nlohmann::ordered_json::object();
+  for (const auto& [name, u] : parts) j[name] = u;
+  return j;
+}
+
 nlohmann::ordered_json next_json(const NextTest& t) {
   return {{"name", t.name},
           {"apparatus", t.apparatus},
@@ -354,13 +361,25 @@ nlohmann::ordered_json diagnosis_json(const Diagnosis& d, const nlohmann::ordere
                           {"region", r.region},
                           {"z", r.z},
                           {"relative_gap", r.relative_gap},
-                          {"q_value", r.q}});
+                          {"q_value", r.q},
+                          {"u", r.u},
+                          {"u_parts", parts_json(r.u_parts)}});
   j["shrink"] = d.shrink ? shrink_json(*d.shrink) : json();
   j["next_test"] = d.next_tests.empty() ? json() : next_json(d.next_tests[0]);
   j["sentence"] = verdict_sentence(d);
   j["shrink_predicted"] = d.predicted ? shrink_json(*d.predicted) : json();
   j["next_tests"] = json::array();
   for (const NextTest& t : d.next_tests) j["next_tests"].push_back(next_json(t));
+  j["trends"] = json::array();
+  for (const Trend& t : d.trends)
+    j["trends"].push_back({{"apparatus", t.apparatus},
+                           {"observable", t.observable},
+                           {"condition", t.condition},
+                           {"exponent", t.exponent},
+                           {"u", t.u},
+                           {"z", t.z},
+                           {"q_value", t.q},
+                           {"u_parts", parts_json(t.u_parts)}});
   j["log_odds"] = {{"best_rival", d.log_odds},
                    {"threshold", d.threshold.log_odds},
                    {"threshold_low95", d.threshold.low95},

@@ -25,6 +25,7 @@
 #include "next_test.h"
 #include "regions.h"
 #include "threshold.h"
+#include "trends.h"
 
 namespace vielto::gap {
 
@@ -53,6 +54,7 @@ struct Diagnosis {
   std::vector<NamedStrength> strengths;
   double absorbable = 0;
   Location where;
+  std::vector<Trend> trends;
   Threshold threshold;
   double log_odds = 0;              // of the best rival
   double fit_probability = 1;       // of the chi^2 of the most probable named model (or of no gap)

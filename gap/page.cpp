@@ -32,6 +32,20 @@ std::string signed_bar(double value, double full, const char* colour) {
       value < 0 ? 110 - length : 110, length, colour);
 }
 
+// What makes most of the uncertainty of a region or a trend: the sources with a quarter of u^2 or more, greatest first.
+// `unit` is 100 for per cent.
+std::string mostly_from(const json& region, double unit, const char* format) {
+  std::vector<std::pair<double, std::string>> parts;
+  for (const auto& [name, u] : region["u_parts"].items()) parts.emplace_back(u.get<double>(), name);
+  std::sort(parts.rbegin(), parts.rend());
+  const double u = region["u"].get<double>();
+  std::string text;
+  for (const auto& [part, name] : parts)
+    if (part * part >= u * u / 4)
+      text += fmt::format("{}{} {}", text.empty() ? "" : ", ", name, fmt::format(fmt::runtime(format), unit * part));
+  return text;
+}
+
 std::string map_of_the_gap(const json& where) {
   double full = 0.05;
   for (const json& r : where) full = std::max(full, std::fabs(r["relative_gap"].get<double>()));
@@ -39,15 +53,47 @@ std::string map_of_the_gap(const json& where) {
   for (const json& r : where) {
     const bool found = r["q_value"].get<double>() <= 0.05;
     rows += fmt::format(
-        "<tr><td>{} {}</td><td>{}</td><td>{}</td><td class=n>{:+.1f} %</td><td class=n>{:+.1f}</td><td "
-        "class=n>{:.2g}</td></tr>\n",
+        "<tr><td>{} {}</td><td>{}</td><td>{}</td><td class=n>{:+.1f} %</td><td class=n>{:.1f} %</td><td>{}</td><td "
+        "class=n>{:+.1f}</td><td class=n>{:.2g}</td></tr>\n",
         r["apparatus"].get<std::string>(), r["observable"].get<std::string>(), r["region"].get<std::string>(),
         signed_bar(r["relative_gap"], full, found ? "#c0392b" : "#bbbbbb"), 100 * r["relative_gap"].get<double>(),
-        r["z"].get<double>(), r["q_value"].get<double>());
+        100 * r["u"].get<double>(), mostly_from(r, 100, "{:.0f} %"), r["z"].get<double>(), r["q_value"].get<double>());
   }
   return "<table><tr><th>observable</th><th>region</th><th>measured against "
-         "simulated</th><th>gap</th><th>z</th><th>q</th></tr>\n" +
-         rows + "</table>\n<p>Red: a gap, at a false-discovery rate of 5 %. Grey: not shown.</p>\n";
+         "simulated</th><th>gap</th><th>u</th><th>u mostly from</th><th>z</th><th>q</th></tr>\n" +
+         rows +
+         "</table>\n<p>u: standard uncertainty of the gap, all that is uncertain included. Red: a gap, at a "
+         "false-discovery rate of 5 %. Grey: a gap smaller than about twice its u cannot be told from nothing.</p>\n";
+}
+
+std::string trends_table(const json& trends) {
+  std::string rows;
+  for (const json& t : trends)
+    rows += fmt::format(
+        "<tr><td>{} {}</td><td>{}</td><td class=n>{:+.2f}</td><td class=n>{:.2f}</td><td>{}</td><td "
+        "class=n>{:+.1f}</td><td class=n>{:.2g}</td></tr>\n",
+        t["apparatus"].get<std::string>(), t["observable"].get<std::string>(), t["condition"].get<std::string>(),
+        t["exponent"].get<double>(), t["u"].get<double>(), mostly_from(t, 1, "{:.2f}"), t["z"].get<double>(),
+        t["q_value"].get<double>());
+  if (rows.empty()) return "";
+  return "<p>Measured over simulated goes with the condition to the power</p>\n<table><tr><th>observable</th>"
+         "<th>condition</th><th>exponent</th><th>u</th><th>u mostly from</th><th>z</th><th>q</th></tr>\n" +
+         rows + "</table>\n";
+}
+
+// "No gap" says as little as the data can show: how large a gap would have been seen, and what hides a smaller one.
+std::string without_a_gap(const json& where) {
+  const json* largest = nullptr;
+  for (const json& r : where)
+    if (!largest || std::fabs(r["relative_gap"].get<double>()) > std::fabs((*largest)["relative_gap"].get<double>()))
+      largest = &r;
+  if (!largest) return "";
+  return fmt::format(
+      "<p>That is no proof that the simulation is right: the largest difference seen ({} {}, {}: {:+.0f} %) has a "
+      "standard uncertainty of {:.0f} %, mostly from {}. A smaller u there is what would show more.</p>\n",
+      (*largest)["apparatus"].get<std::string>(), (*largest)["observable"].get<std::string>(),
+      (*largest)["region"].get<std::string>(), 100 * (*largest)["relative_gap"].get<double>(),
+      100 * (*largest)["u"].get<double>(), mostly_from(*largest, 100, "{:.0f} %"));
 }
 
 // Where in the machine the simulated torque arises, and where the effects change it.
@@ -139,7 +185,8 @@ std::string diagnosis_page(const json& d, const std::string& title) {
   page += fmt::format("<p>{:.0f} % of the gap could be absorbed by recalibration, {:.0f} % needs something new.</p>\n",
                       100 * d["absorbable_by_recalibration"].get<double>(),
                       100 - 100 * d["absorbable_by_recalibration"].get<double>());
-  page += "<h2>Where</h2>\n" + map_of_the_gap(d["where"]);
+  if (d["verdict"] == "no_gap") page += without_a_gap(d["where"]);
+  page += "<h2>Where</h2>\n" + map_of_the_gap(d["where"]) + trends_table(d["trends"]);
   page += "<h2>Which effect</h2>\n" + ranking(d["probabilities"]);
   page += "<h2>How far the gap closes</h2>\n";
   if (!d["shrink"].is_null()) page += before_and_after(d["shrink"], "simulated again", d["verdict"] != "unknown");
@@ -149,7 +196,8 @@ std::string diagnosis_page(const json& d, const std::string& title) {
     page += "<p>Not asked: no effect was named, or there are no check tests.</p>\n";
   page += "<h2>Next test</h2>\n";
   if (d["next_test"].is_null())
-    page += "<p>None is needed to tell effects apart.</p>\n";
+    page += d["verdict"] == "no_gap" ? "<p>None: there is no proven gap whose cause a test could tell.</p>\n"
+                                     : "<p>None is needed to tell effects apart.</p>\n";
   else
     page += fmt::format(
         "<p><b>{}</b> ({}): separates {}; from {:.1f} to {:.1f} standard deviations in {:g} h.</p>\n",

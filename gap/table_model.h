@@ -9,6 +9,7 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <array>
 #include <string>
 #include <vector>
 
@@ -55,5 +56,16 @@ struct TableModel {
   // Effects not in `names` only.
   TableModel without(const std::vector<std::string>& names) const;
 };
+
+// What null_covariance() is the sum of, by the names a reader is told.
+struct UncertaintySource {
+  const char* name;
+  Eigen::MatrixXd TableModel::* part;
+};
+constexpr std::array<UncertaintySource, 5> kUncertaintySources = {{{"measurement", &TableModel::noise},
+                                                                   {"seeds", &TableModel::seed},
+                                                                   {"emulator", &TableModel::emulator},
+                                                                   {"calibration", &TableModel::family},
+                                                                   {"contact law", &TableModel::discrepancy}}};
 
 }  // namespace vielto::gap

@@ -224,4 +224,27 @@ TEST(GapPage, ShowsNoRunWithAnUnknownEffect) {
   EXPECT_NE(diagnosis_page(answer, "wall B").find("with the effect"), std::string::npos);
 }
 
+// "No gap" must not read as "the simulation is right": the page tells how large a gap would have been seen.
+TEST(GapPage, OfNoGapTellsWhatCouldHideOne) {
+  nlohmann::ordered_json answer;
+  std::ifstream(VIELTO_SOURCE_DIR "/gap/answers/wheat-wall-B/diagnosis.json") >> answer;
+  answer["verdict"] = "no_gap";
+  answer["next_test"] = answer["shrink"] = answer["shrink_predicted"] = nullptr;
+  answer["where"] = {{{"apparatus", "mixer"},
+                      {"observable", "power"},
+                      {"region", "fast"},
+                      {"z", -1.5},
+                      {"relative_gap", -0.36},
+                      {"q_value", 1.0},
+                      {"u", 0.24},
+                      {"u_parts", {{"measurement", 0.05}, {"calibration", 0.2}, {"contact law", 0.123}}}}};
+  const std::string page = diagnosis_page(answer, "mixer");
+  EXPECT_NE(page.find("mixer power, fast: -36 %) has a standard uncertainty of 24 %, mostly from calibration 20 %, "
+                      "contact law 12 %."),
+            std::string::npos)
+      << page;
+  answer["verdict"] = "ambiguous";
+  EXPECT_EQ(diagnosis_page(answer, "mixer").find("no proof"), std::string::npos);
+}
+
 }  // namespace

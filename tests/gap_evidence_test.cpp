@@ -4,16 +4,20 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
 #include <random>
+#include <string>
 
 #include "discrepancy.h"
 #include "evidence.h"
 #include "gaussian_process.h"
 #include "regions.h"
+#include "trends.h"
 
 namespace {
 
 using namespace vielto::gap;
+using vielto::Observation;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
@@ -140,6 +144,64 @@ TEST(GapRegions, BenjaminiHochbergByHand) {
   EXPECT_NEAR(q_values(p, true)[0], 0.0015 * 3.318228993, 1e-10);
   // The order of the input does not matter.
   EXPECT_NEAR(q_values({0.04, 0.001}, false)[1], 0.002, 1e-12);
+}
+
+// Two rows 1 and 2 over a baseline of 10 with noise of 0.5 each, and 0.3 that both share: the mean gap is 15 % with
+// u^2 = 5 %^2/2 + 3 %^2, to which the noise and the shared part add those two terms.
+TEST(GapRegions, TellWhatTheirUncertaintyComesFrom) {
+  VectorXd y(2);
+  y << 11, 12;
+  TableModel m = linear_model(y, {}, 0, 1);
+  m.noise = MatrixXd::Identity(2, 2) * 0.25;
+  m.family = MatrixXd::Constant(2, 2, 0.09);
+  for (Observation& row : m.rows) row.apparatus = "mixer", row.observable = "power", row.speed = 1;
+  const Location location = locate(m);
+  ASSERT_EQ(location.regions.size(), 1u);
+  const Region& r = location.regions[0];
+  EXPECT_NEAR(r.relative_gap, 0.15, 1e-12);
+  EXPECT_NEAR(r.u, std::sqrt(0.05 * 0.05 / 2 + 0.03 * 0.03), 1e-12);
+  const std::map<std::string, double> parts(r.u_parts.begin(), r.u_parts.end());
+  EXPECT_NEAR(parts.at("measurement"), 0.05 / std::sqrt(2.0), 1e-12);
+  EXPECT_NEAR(parts.at("calibration"), 0.03, 1e-12);
+  for (const char* none : {"seeds", "emulator", "contact law"}) EXPECT_EQ(parts.at(none), 0) << none;
+}
+
+// Four rows at two speeds and two fills, measured over simulated speed^-0.4 fill^0.2: the exponents come back. With equal
+// independent errors of s in the logarithm, u = s/sqrt(sum (ln c - mean)^2) = s/(ln of the ratio); an error that all rows share
+// adds nothing, one that grows with the logarithm of the speed adds its own exponent.
+TEST(GapTrends, AreWhatRegionsCannotShow) {
+  TableModel m = linear_model(VectorXd::Zero(4), {}, 0, 1);
+  m.noise.setZero();
+  VectorXd slope(4);
+  for (int i = 0; i < 4; ++i) {
+    Observation& row = m.rows[static_cast<std::size_t>(i)];
+    row.apparatus = "mixer", row.observable = "power";
+    row.speed = i < 2 ? 0.5 : 1.5;
+    row.fill = i % 2 ? 0.2 : 0.1;
+    m.baseline[i] = 10 + i;
+    m.observed[i] = m.baseline[i] * std::pow(*row.speed, -0.4) * std::pow(*row.fill, 0.2);
+    slope[i] = m.baseline[i] * std::log(*row.speed);
+  }
+  const double s = 0.05;
+  m.noise = (s * m.observed).array().square().matrix().asDiagonal();
+  m.discrepancy = 0.09 * m.baseline * m.baseline.transpose();
+  m.family = 0.01 * slope * slope.transpose();
+  const auto trends = trends_of(m);
+  ASSERT_EQ(trends.size(), 2u);
+  const Trend &speed = trends[trends[0].condition == "speed" ? 0 : 1], &fill = trends[trends[0].condition == "fill" ? 0 : 1];
+  EXPECT_NEAR(speed.exponent, -0.4, 1e-9);
+  EXPECT_NEAR(fill.exponent, 0.2, 1e-9);
+  EXPECT_NEAR(speed.u, std::hypot(s / std::log(3.0), 0.1), 1e-9);
+  EXPECT_NEAR(fill.u, s / std::log(2.0), 1e-9);
+  const std::map<std::string, double> parts(speed.u_parts.begin(), speed.u_parts.end());
+  EXPECT_NEAR(parts.at("measurement"), s / std::log(3.0), 1e-9);
+  EXPECT_NEAR(parts.at("calibration"), 0.1, 1e-9);
+  EXPECT_NEAR(parts.at("contact law"), 0, 1e-7);
+  // two rows cannot tell a level and two exponents; a condition of 0 (an axis that lies level) has no logarithm
+  EXPECT_TRUE(trends_of(m.part({0, 3})).empty());
+  for (Observation& row : m.rows) row.speed = 1, row.fill = std::nullopt, row.tilt = 0;
+  m.rows[3].tilt = 45;
+  EXPECT_TRUE(trends_of(m).empty());
 }
 
 TEST(GapSmoothing, ResponseIsZeroAtZeroAndLearnsACurve) {

@@ -37,6 +37,22 @@ INSTANTIATE_TEST_SUITE_P(Laws, StockDrum,
                          testing::Values("-var law hertz ", "-var law hooke ",
                                          "-var law hooke -var cohesion sjkr2 -var cohesionEnergyDensity 100 "));
 
+/* The bed is filled slippery (5 deg) and sheared with the card's friction (contacts of 26 and 27 deg): it resists by far more
+ * than one that stays slippery. */
+TEST(StockShearbox, IsFilledSlipperyAndShearedWithTheCardsFriction) {
+  Rig rig("shearbox");
+  const auto force = [&](const std::string& run, const std::string& friction) {
+    rig.must(run, coarse_shear, "-var law hooke " + friction);
+    const Table rows = rig.csv(run + "/shear.csv");
+    double sum = 0;
+    for (std::size_t k = 40; k < rows.rows.size(); k++) sum += rows.at(k, "lower_Fx_N");
+    return sum / static_cast<double>(rows.rows.size() - 40);
+  };
+  const double slippery = force("slippery", "-var frictionAngle 5 -var wall_frictionAngle 5 ");
+  EXPECT_GT(slippery, 0);
+  EXPECT_GT(force("card", ""), 2 * slippery);
+}
+
 struct Refusal {
   std::string name, rig, option;
   std::vector<std::string> words;

@@ -1,0 +1,41 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""workflow/size_effect through its command line: a line known by hand, its uncertainty by the closed form, bad tables."""
+import math
+import pathlib
+import subprocess
+import tempfile
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+
+
+def effect(table, *words):
+    return subprocess.run([ROOT / "workflow/size_effect", table, "--column", "angle_deg", *words], capture_output=True, text=True)
+
+
+with tempfile.TemporaryDirectory(prefix="vielto-size-") as name:
+    table = pathlib.Path(name) / "numbers.csv"
+    # 20 deg + 2500 deg/m d, seeds 0.5 deg to either side at each of two sizes
+    rows = [f"r{k},{d},{20 + 2500 * d + e}\n" for k, (d, e) in enumerate(((0.002, 0.5), (0.002, -0.5), (0.004, 0.5), (0.004, -0.5)))]
+    table.write_text("run,grain_diameter_m,angle_deg\n" + "".join(rows))
+    told = effect(table, "--real", "0.001", "--coarse", "0.004")
+    assert told.returncode == 0, told.stderr
+    # scatter sqrt(4 * 0.25 / 2); u_slope = scatter/sqrt(4 * 0.001^2)
+    scatter = math.sqrt(0.5)
+    u_slope = scatter / 0.002
+    assert f"coarse less real: 7.5 ± {0.003 * u_slope:.2g}" in told.stdout, told.stdout
+    # ratio 30/22.5; u of both ends and their covariance about the mean size: value a + b(d - 0.003), a and b independent
+    ratio, u_a = 30 / 22.5, scatter / 2
+    u = math.hypot((1 - ratio) / 22.5 * u_a, (0.001 + ratio * 0.002) / 22.5 * u_slope)
+    assert f"coarse over real: 1.333 ± {u:.2g}" in told.stdout, told.stdout
+    assert "line at the real size, 1 mm, extrapolated: 22.5" in told.stdout, told.stdout
+    assert "line at the coarse size, 4 mm: 30" in told.stdout, told.stdout
+    assert "4 mm: 30 ± 0.5 (2 runs)" in told.stdout, told.stdout
+
+    for text, fault in (("run,grain_diameter_m,angle_deg\n" + "".join(rows[:2]), "three points or more, at two x or more"),
+                        ("run,grain_diameter_m\nr,0.002\n", ":2: grain_diameter_m and angle_deg"),
+                        ("run,grain_diameter_m,angle_deg\nr,0.002,x\n", ":2: grain_diameter_m and angle_deg")):
+        table.write_text(text)
+        bad = effect(table, "--real", "0.001", "--coarse", "0.004")
+        assert bad.returncode == 2 and fault in bad.stderr and bad.stderr.count("\n") == 1, bad
+    bad = effect(pathlib.Path(name) / "none.csv", "--real", "0.001", "--coarse", "0.004")
+    assert bad.returncode == 2 and "No such file" in bad.stderr, bad
