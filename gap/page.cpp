@@ -96,6 +96,19 @@ std::string without_a_gap(const json& where) {
       100 * (*largest)["u"].get<double>(), mostly_from(*largest, 100, "{:.0f} %"));
 }
 
+// A verdict on single regions and effects can miss what goes through all of them.
+std::string trends_found(const json& trends) {
+  std::string text;
+  for (const json& t : trends)
+    if (t["q_value"].get<double>() <= 0.05)
+      text += fmt::format(
+          "<p><b>But a trend is off:</b> {} {}, measured over simulated, goes with {} to the power {:+.2f} &plusmn; "
+          "{:.2f} (q {:.2g}).</p>\n",
+          t["apparatus"].get<std::string>(), t["observable"].get<std::string>(), t["condition"].get<std::string>(),
+          t["exponent"].get<double>(), t["u"].get<double>(), t["q_value"].get<double>());
+  return text;
+}
+
 // Where in the machine the simulated torque arises, and where the effects change it.
 std::string sources_rows(const json& sources, const std::string& kind) {
   std::string rows;
@@ -185,7 +198,7 @@ std::string diagnosis_page(const json& d, const std::string& title) {
   page += fmt::format("<p>{:.0f} % of the gap could be absorbed by recalibration, {:.0f} % needs something new.</p>\n",
                       100 * d["absorbable_by_recalibration"].get<double>(),
                       100 - 100 * d["absorbable_by_recalibration"].get<double>());
-  if (d["verdict"] == "no_gap") page += without_a_gap(d["where"]);
+  if (d["verdict"] == "no_gap") page += trends_found(d["trends"]) + without_a_gap(d["where"]);
   page += "<h2>Where</h2>\n" + map_of_the_gap(d["where"]) + trends_table(d["trends"]);
   page += "<h2>Which effect</h2>\n" + ranking(d["probabilities"]);
   page += "<h2>How far the gap closes</h2>\n";

@@ -60,7 +60,7 @@ struct TableModel {
 // What null_covariance() is the sum of, by the names a reader is told.
 struct UncertaintySource {
   const char* name;
-  Eigen::MatrixXd TableModel::* part;
+  Eigen::MatrixXd TableModel::*part;
 };
 constexpr std::array<UncertaintySource, 5> kUncertaintySources = {{{"measurement", &TableModel::noise},
                                                                    {"seeds", &TableModel::seed},

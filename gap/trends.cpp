@@ -40,7 +40,8 @@ void add_trends(const TableModel& model, const std::vector<Index>& rows, std::ve
   MatrixXd x = MatrixXd::Ones(n, unknowns);
   for (Index i = 0; i < n; ++i)
     for (std::size_t c = 0; c < conditions.size(); ++c)
-      x(i, static_cast<Index>(c) + 1) = std::log(*(model.rows[static_cast<std::size_t>(rows[i])].*conditions[c].member));
+      x(i, static_cast<Index>(c) + 1) =
+          std::log(*(model.rows[static_cast<std::size_t>(rows[i])].*conditions[c].member));
   if (Eigen::ColPivHouseholderQR<MatrixXd>(x).rank() < unknowns) return;
 
   std::vector<MatrixXd> parts;

@@ -238,6 +238,19 @@ TEST(GapPage, OfNoGapTellsWhatCouldHideOne) {
                       {"q_value", 1.0},
                       {"u", 0.24},
                       {"u_parts", {{"measurement", 0.05}, {"calibration", 0.2}, {"contact law", 0.123}}}}};
+  answer["trends"] = {{{"apparatus", "mixer"},
+                       {"observable", "power"},
+                       {"condition", "speed"},
+                       {"exponent", -0.3},
+                       {"u", 0.1},
+                       {"z", -3.0},
+                       {"q_value", 0.004},
+                       {"u_parts", {{"calibration", 0.1}}}}};
+  EXPECT_NE(
+      diagnosis_page(answer, "mixer").find("mixer power, measured over simulated, goes with speed to the power -0.30"),
+      std::string::npos);
+  answer["trends"][0]["q_value"] = 0.2;
+  EXPECT_EQ(diagnosis_page(answer, "mixer").find("a trend is off"), std::string::npos);
   const std::string page = diagnosis_page(answer, "mixer");
   EXPECT_NE(page.find("mixer power, fast: -36 %) has a standard uncertainty of 24 %, mostly from calibration 20 %, "
                       "contact law 12 %."),

@@ -17,9 +17,9 @@
 namespace {
 
 using namespace vielto::gap;
-using vielto::Observation;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
+using vielto::Observation;
 
 double standard_normal(double x) { return 0.5 * std::erfc(-x / std::sqrt(2.0)); }
 
@@ -166,9 +166,9 @@ TEST(GapRegions, TellWhatTheirUncertaintyComesFrom) {
   for (const char* none : {"seeds", "emulator", "contact law"}) EXPECT_EQ(parts.at(none), 0) << none;
 }
 
-// Four rows at two speeds and two fills, measured over simulated speed^-0.4 fill^0.2: the exponents come back. With equal
-// independent errors of s in the logarithm, u = s/sqrt(sum (ln c - mean)^2) = s/(ln of the ratio); an error that all rows share
-// adds nothing, one that grows with the logarithm of the speed adds its own exponent.
+// Four rows at two speeds and two fills, measured over simulated speed^-0.4 fill^0.2: the exponents come back. With
+// equal independent errors of s in the logarithm, u = s/sqrt(sum (ln c - mean)^2) = s/(ln of the ratio); an error that
+// all rows share adds nothing, one that grows with the logarithm of the speed adds its own exponent.
 TEST(GapTrends, AreWhatRegionsCannotShow) {
   TableModel m = linear_model(VectorXd::Zero(4), {}, 0, 1);
   m.noise.setZero();
@@ -188,7 +188,8 @@ TEST(GapTrends, AreWhatRegionsCannotShow) {
   m.family = 0.01 * slope * slope.transpose();
   const auto trends = trends_of(m);
   ASSERT_EQ(trends.size(), 2u);
-  const Trend &speed = trends[trends[0].condition == "speed" ? 0 : 1], &fill = trends[trends[0].condition == "fill" ? 0 : 1];
+  const Trend &speed = trends[trends[0].condition == "speed" ? 0 : 1],
+              &fill = trends[trends[0].condition == "fill" ? 0 : 1];
   EXPECT_NEAR(speed.exponent, -0.4, 1e-9);
   EXPECT_NEAR(fill.exponent, 0.2, 1e-9);
   EXPECT_NEAR(speed.u, std::hypot(s / std::log(3.0), 0.1), 1e-9);

@@ -37,8 +37,8 @@ INSTANTIATE_TEST_SUITE_P(Laws, StockDrum,
                          testing::Values("-var law hertz ", "-var law hooke ",
                                          "-var law hooke -var cohesion sjkr2 -var cohesionEnergyDensity 100 "));
 
-/* The bed is filled slippery (5 deg) and sheared with the card's friction (contacts of 26 and 27 deg): it resists by far more
- * than one that stays slippery. */
+/* The bed is filled slippery (5 deg) and sheared with the card's friction (contacts of 26 and 27 deg): it resists by
+ * far more than one that stays slippery. */
 TEST(StockShearbox, IsFilledSlipperyAndShearedWithTheCardsFriction) {
   Rig rig("shearbox");
   const auto force = [&](const std::string& run, const std::string& friction) {
