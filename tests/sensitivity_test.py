@@ -7,11 +7,11 @@ import subprocess
 import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-HEAD = "test,role,apparatus,observable,value,u,unit,speed,fill\n"
+HEAD = "run,rig,speed,fill,power_W\n"
 
 
-def run(test, power, speed="1", fill="0.15", idle=6):
-    return "".join(f"{test},fit,mixer,{o},{v},0.1,W,{speed},{fill}\n" for o, v in (("power_loaded", power + idle), ("power_idle", idle)))
+def run(name, power, speed="1", fill="0.15"):
+    return f"{name},mixer,{speed},{fill},{power}\n"
 
 
 def sensitivity(*words):
@@ -20,7 +20,7 @@ def sensitivity(*words):
 
 with tempfile.TemporaryDirectory(prefix="vielto-sensitivity-") as name:
     name = pathlib.Path(name)
-    table, out = name / "observations.csv", name / "out.csv"
+    table, out = name / "numbers.csv", name / "out.csv"
     # base 30 +- 3 % in two seeds, fine 33 +- 3 % in two; whole drum at another speed, one run of each
     good = (HEAD + run("base_s1", 30.9) + run("base_s2", 29.1) + run("fine_s1", 33.99) + run("fine_s2", 32.01) +
             run("base_fast_s1", 50, "1.58") + run("drum_fast_s1", 60, "1.58"))
@@ -38,10 +38,10 @@ with tempfile.TemporaryDirectory(prefix="vielto-sensitivity-") as name:
     assert f"numerical uncertainty of a base run: {100 * math.hypot(*parts):.1f} %" in told.stdout, told.stdout
     assert "one run scatters by 4.2 % between seeds" in told.stdout, told.stdout
 
-    for text, words, fault in ((good.replace("drum_fast_s1", "drum-fast"), (), "test drum-fast is not named LABEL_sN"),
+    for text, words, fault in ((good.replace("drum_fast_s1", "drum-fast"), (), "run drum-fast is not named LABEL_sN"),
                                (HEAD + run("fine_s1", 33) + run("fine_s2", 32), (), "no base run under the same conditions"),
                                (HEAD + run("base_s1", 30), (), "no label has two seeds"),
-                               ("a,b\n1,2\n", (), ":2: no row of an observation table"),
+                               ("a,b\n1,2\n", (), ":2: run, speed, fill and power_W are not all there"),
                                (good, ("--numerical", "step"), "--numerical step: no such label")):
         table.write_text(text)
         out.unlink(missing_ok=True)

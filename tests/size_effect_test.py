@@ -16,7 +16,7 @@ with tempfile.TemporaryDirectory(prefix="vielto-size-") as name:
     table = pathlib.Path(name) / "numbers.csv"
     # 20 deg + 2500 deg/m d, seeds 0.5 deg to either side at each of two sizes
     rows = [f"r{k},{d},{20 + 2500 * d + e}\n" for k, (d, e) in enumerate(((0.002, 0.5), (0.002, -0.5), (0.004, 0.5), (0.004, -0.5)))]
-    table.write_text("run,grain_diameter_m,angle_deg\n" + "".join(rows))
+    table.write_text("run,grainDiameter,angle_deg\n" + "".join(rows))
     told = effect(table, "--real", "0.001", "--coarse", "0.004")
     assert told.returncode == 0, told.stderr
     # scatter sqrt(4 * 0.25 / 2); u_slope = scatter/sqrt(4 * 0.001^2)
@@ -30,10 +30,14 @@ with tempfile.TemporaryDirectory(prefix="vielto-size-") as name:
     assert "line at the real size, 1 mm, extrapolated: 22.5" in told.stdout, told.stdout
     assert "line at the coarse size, 4 mm: 30" in told.stdout, told.stdout
     assert "4 mm: 30 ± 0.5 (2 runs)" in told.stdout, told.stdout
+    # runs of another kind are left out by name
+    table.write_text("run,grainDiameter,angle_deg\n" + "".join(rows) + "other,0.004,90\n")
+    assert effect(table, "--real", "0.001", "--coarse", "0.004", "--runs", "r").stdout == told.stdout
+    assert effect(table, "--real", "0.001", "--coarse", "0.004").stdout != told.stdout
 
-    for text, fault in (("run,grain_diameter_m,angle_deg\n" + "".join(rows[:2]), "three points or more, at two x or more"),
-                        ("run,grain_diameter_m\nr,0.002\n", ":2: grain_diameter_m and angle_deg"),
-                        ("run,grain_diameter_m,angle_deg\nr,0.002,x\n", ":2: grain_diameter_m and angle_deg")):
+    for text, fault in (("run,grainDiameter,angle_deg\n" + "".join(rows[:2]), "three points or more, at two x or more"),
+                        ("run,grainDiameter\nr,0.002\n", ":2: grainDiameter and angle_deg"),
+                        ("run,grainDiameter,angle_deg\nr,0.002,x\n", ":2: grainDiameter and angle_deg")):
         table.write_text(text)
         bad = effect(table, "--real", "0.001", "--coarse", "0.004")
         assert bad.returncode == 2 and fault in bad.stderr and bad.stderr.count("\n") == 1, bad
