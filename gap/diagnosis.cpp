@@ -129,8 +129,9 @@ double absorbable_part(const TableModel& model, const VectorXd& gap) {
   return std::clamp(1 - left.dot(factor.solve(left)) / all, 0.0, 1.0);
 }
 
-VectorXd recalibrated_parameters(const TableModel& fit, const std::vector<std::string>& effects,
+VectorXd recalibrated_parameters(const TableModel& values, const std::vector<std::string>& effects,
                                  const std::vector<double>& strengths) {
+  const TableModel fit = values.in_logarithms(TableModel::NoiseOver::observed);
   const auto response = responses(fit, effects);
   const VectorXd rest = fit.observed - mean_at(fit, response, strengths) + fit.family_shift;
   // The members' own scatter leaves the covariance: it is what is asked for.
@@ -228,7 +229,8 @@ std::optional<Shrink> predicted_shrink(const TableModel& model, const Diagnosis&
 }
 
 Diagnosis diagnose(const TableModel& model, const Threshold& threshold, const Settings& settings) {
-  const TableModel fit = model.part(rows_with_role(model, "fit"));
+  const TableModel fit =
+      model.part(rows_with_role(model, "fit")).in_logarithms(TableModel::NoiseOver::observed);
   Diagnosis d;
   d.fit_rows = static_cast<int>(fit.size());
   d.check_rows = static_cast<int>(model.size()) - d.fit_rows;

@@ -335,10 +335,10 @@ TableModel Emulator::model(const ReducedTable& table, const EmulatorOptions& opt
   model.observed.resize(n);
   model.noise = MatrixXd(table.covariance);
   for (auto member : {&TableModel::baseline, &TableModel::family_shift, &TableModel::relative, &TableModel::scale,
-                      &TableModel::unknown_scale})
+                      &TableModel::logarithmic, &TableModel::unknown_scale})
     model.*member = VectorXd::Zero(n);
   for (auto member : {&TableModel::seed, &TableModel::emulator, &TableModel::family, &TableModel::discrepancy,
-                      &TableModel::shape_correlation, &TableModel::unknown_correlation})
+                      &TableModel::shape_correlation})
     model.*member = MatrixXd::Zero(n, n);
   const Index members = family_.weights.size();
   model.family_members = MatrixXd::Zero(n, members);
@@ -454,22 +454,25 @@ TableModel Emulator::model(const ReducedTable& table, const EmulatorOptions& opt
     model.effects.push_back(std::move(response));
   }
 
-  // An unnamed gap: as large as the effects are at each row, smooth within an observable, alike within an apparatus.
+  // An unnamed gap: as large as the effects are at each row; smooth, or a level and a trend with each condition.
   for (const EffectResponse& e : model.effects)
     model.unknown_scale += ((e.response(e.low / 2).cwiseAbs2() + e.response(e.high / 2).cwiseAbs2()) / 2);
   model.unknown_scale =
       (model.unknown_scale / std::max<double>(1, static_cast<double>(model.effects.size()))).cwiseSqrt();
   model.unknown_scale = model.unknown_scale.cwiseMax(settings.unknown_floor * model.scale.cwiseAbs());
+  MatrixXd smooth = MatrixXd::Zero(n, n), trend = MatrixXd::Zero(n, n);
   for (Index i = 0; i < n; ++i)
     for (Index j = 0; j < n; ++j) {
-      double g = 0;
-      if (model.rows[i].apparatus == model.rows[j].apparatus) g += 0.2;
-      if (model.rows[i].apparatus == model.rows[j].apparatus && model.rows[i].observable == model.rows[j].observable) {
-        const double distance = (point[i].c - point[j].c).squaredNorm();
-        g += 0.3 + 0.3 * std::exp(-distance / (2 * 0.5 * 0.5)) + (distance < 1e-12 ? 0.2 : 0);
-      }
-      model.unknown_correlation(i, j) = g;
+      if (model.rows[i].apparatus != model.rows[j].apparatus) continue;
+      smooth(i, j) = trend(i, j) = 0.2;
+      if (model.rows[i].observable != model.rows[j].observable) continue;
+      const double distance = (point[i].c - point[j].c).squaredNorm();
+      smooth(i, j) += 0.3 + 0.3 * std::exp(-distance / (2 * 0.5 * 0.5)) + (distance < 1e-12 ? 0.2 : 0);
+      // level and slopes of one size at the ends of the range, where c is 0 or 1
+      const double slopes = (2 * point[i].c.array() - 1).matrix().dot((2 * point[j].c.array() - 1).matrix());
+      trend(i, j) += 0.8 * (1 + slopes) / (1 + static_cast<double>(point[i].c.size()));
     }
+  model.unknown_shapes = {smooth, trend};
   return model;
 }
 

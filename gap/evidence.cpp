@@ -119,18 +119,18 @@ MatrixXd covariance_at(const TableModel& model, const Effects& effects, const st
   return c;
 }
 
-MatrixXd unknown_covariance(const TableModel& model, double amplitude) {
-  const VectorXd d = amplitude * model.unknown_scale;
-  return model.null_covariance() + d.asDiagonal() * model.unknown_correlation * d.asDiagonal();
-}
-
-std::vector<double> unknown_amplitudes(const Settings& settings) {
-  constexpr int kCount = 9;
-  std::vector<double> amplitudes;
-  for (int i = 0; i < kCount; ++i)
-    amplitudes.push_back(settings.unknown_low *
-                         std::pow(settings.unknown_high / settings.unknown_low, static_cast<double>(i) / (kCount - 1)));
-  return amplitudes;
+std::vector<MatrixXd> unknown_covariances(const TableModel& model, const Settings& settings) {
+  constexpr int kAmplitudes = 9;
+  const MatrixXd null = model.null_covariance();
+  std::vector<MatrixXd> covariances;
+  for (const MatrixXd& shape : model.unknown_shapes)
+    for (int i = 0; i < kAmplitudes; ++i) {
+      const double amplitude = settings.unknown_low * std::pow(settings.unknown_high / settings.unknown_low,
+                                                               static_cast<double>(i) / (kAmplitudes - 1));
+      const VectorXd d = amplitude * model.unknown_scale;
+      covariances.push_back(null + d.asDiagonal() * shape * d.asDiagonal());
+    }
+  return covariances;
 }
 
 ModelEvidence no_gap_evidence(const TableModel& model) {
@@ -143,8 +143,8 @@ ModelEvidence unknown_evidence(const TableModel& model, const Settings& settings
   ModelEvidence m;
   m.unknown = true;
   std::vector<double> logs;
-  for (const double a : unknown_amplitudes(settings))
-    logs.push_back(log_normal_density(model.gap(), unknown_covariance(model, a)));
+  for (const MatrixXd& covariance : unknown_covariances(model, settings))
+    logs.push_back(log_normal_density(model.gap(), covariance));
   m.log_evidence = log_sum(logs) - std::log(static_cast<double>(logs.size()));
   return m;
 }
@@ -260,10 +260,10 @@ VectorXd largest_log_odds(const TableModel& model, const Settings& settings, con
     }
   };
   std::vector<std::pair<VectorXd, double>> nodes;
-  const auto amplitudes = unknown_amplitudes(settings);
-  for (const double a : amplitudes)
-    nodes.emplace_back(log_densities(tables.colwise() - mean, unknown_covariance(model, a)),
-                       -std::log(static_cast<double>(amplitudes.size())));
+  const auto covariances = unknown_covariances(model, settings);
+  for (const MatrixXd& covariance : covariances)
+    nodes.emplace_back(log_densities(tables.colwise() - mean, covariance),
+                       -std::log(static_cast<double>(covariances.size())));
   add_model(nodes);
 
   // Nodes in the middle of cells that grow with the distance from 0, where tables without a gap lie; weight: the cell's

@@ -101,9 +101,10 @@ Location locate(const TableModel& model) {
     Region& region = location.regions[r];
     const VectorXd w = v(region.rows, region.rows).llt().solve(VectorXd::Ones(static_cast<Index>(region.rows.size())));
     const double information = w.sum();
-    region.relative_gap = w.dot(gap(region.rows)) / information;
+    const double mean = w.dot(gap(region.rows)) / information;
+    region.relative_gap = model.logarithmic[region.rows.front()] > 0 ? std::expm1(mean) : mean;
     region.u = 1 / std::sqrt(information);
-    region.z = region.relative_gap / region.u;
+    region.z = mean / region.u;
     region.p = std::erfc(std::fabs(region.z) / std::sqrt(2.0));
     p.push_back(region.p);
     for (std::size_t s = 0; s < parts.size(); ++s) {

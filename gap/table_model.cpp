@@ -2,6 +2,7 @@
 #include "table_model.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace vielto::gap {
@@ -39,16 +40,61 @@ TableModel TableModel::part(const std::vector<Eigen::Index>& keep) const {
   p.rows.clear();
   for (const Eigen::Index i : keep) p.rows.push_back(rows[i]);
   for (auto member : {&TableModel::observed, &TableModel::baseline, &TableModel::family_shift, &TableModel::relative,
-                      &TableModel::scale, &TableModel::unknown_scale})
+                      &TableModel::scale, &TableModel::logarithmic, &TableModel::unknown_scale})
     p.*member = (this->*member)(keep).eval();
   for (auto member : {&TableModel::noise, &TableModel::seed, &TableModel::emulator, &TableModel::family,
-                      &TableModel::discrepancy, &TableModel::shape_correlation, &TableModel::unknown_correlation})
+                      &TableModel::discrepancy, &TableModel::shape_correlation})
     p.*member = (this->*member)(keep, keep).eval();
+  for (Eigen::MatrixXd& shape : p.unknown_shapes) shape = shape(keep, keep).eval();
   p.family_members = family_members(keep, Eigen::all).eval();
   for (EffectResponse& e : p.effects) {
     e.mean = e.mean(keep, Eigen::all).eval();
     for (Eigen::MatrixXd& c : e.covariance) c = c(keep, keep).eval();
   }
+  return p;
+}
+
+TableModel TableModel::in_logarithms(NoiseOver noise_over) const {
+  using Eigen::Index;
+  using Eigen::MatrixXd;
+  using Eigen::VectorXd;
+  TableModel p = *this;
+  VectorXd over_f = VectorXd::Ones(size()), over_noise = over_f;
+  for (Index i = 0; i < size(); ++i) {
+    if (!(relative[i] > 0 && observed[i] > 0)) continue;
+    p.logarithmic[i] = p.scale[i] = 1;
+    p.relative[i] = 0;  // what multiplied adds up
+    over_f[i] = 1 / baseline[i];
+    over_noise[i] = noise_over == NoiseOver::observed ? 1 / observed[i] : over_f[i];
+    p.observed[i] = std::log(observed[i]);
+    p.baseline[i] = std::log(baseline[i]);
+    p.family_members.row(i) = (family_members.row(i).array() / baseline[i]).log1p();
+    p.unknown_scale[i] /= baseline[i];
+  }
+  p.noise = over_noise.asDiagonal() * noise * over_noise.asDiagonal();
+  for (auto member : {&TableModel::seed, &TableModel::emulator, &TableModel::family, &TableModel::discrepancy})
+    p.*member = over_f.asDiagonal() * (this->*member) * over_f.asDiagonal();
+  if (family_weights.size() > 0) {
+    // the members' own scatter anew, the emulator's error of them stays
+    const auto scatter = [&](const MatrixXd& members, const VectorXd& mean) {
+      const MatrixXd centred = members.colwise() - mean;
+      return MatrixXd(centred * family_weights.asDiagonal() * centred.transpose());
+    };
+    p.family -= over_f.asDiagonal() * scatter(family_members, family_shift) * over_f.asDiagonal();
+    p.family_shift = p.family_members * family_weights;
+    p.family += scatter(p.family_members, p.family_shift);
+  }
+  for (EffectResponse& e : p.effects)
+    for (Index k = 0; k < e.strengths.size(); ++k) {
+      VectorXd over = VectorXd::Ones(size());  // f + r
+      for (Index i = 0; i < size(); ++i) {
+        if (p.logarithmic[i] == 0) continue;
+        over[i] = 1 / (baseline[i] + e.mean(i, k));
+        e.mean(i, k) = std::log1p(e.mean(i, k) / baseline[i]);
+      }
+      MatrixXd& c = e.covariance[static_cast<std::size_t>(k)];
+      c = (over.asDiagonal() * c * over.asDiagonal()).eval();
+    }
   return p;
 }
 

@@ -33,10 +33,9 @@ std::vector<NamedCondition> varied(const TableModel& model, const std::vector<In
 }
 
 void add_trends(const TableModel& model, const std::vector<Index>& rows, std::vector<Trend>& trends) {
-  const VectorXd y = model.observed(rows), f = (model.baseline + model.family_shift)(rows);
   const auto conditions = varied(model, rows);
-  const Index n = y.size(), unknowns = static_cast<Index>(conditions.size()) + 1;
-  if (unknowns < 2 || n <= unknowns || y.minCoeff() <= 0 || f.minCoeff() <= 0) return;
+  const Index n = static_cast<Index>(rows.size()), unknowns = static_cast<Index>(conditions.size()) + 1;
+  if (unknowns < 2 || n <= unknowns || model.logarithmic(rows).minCoeff() <= 0) return;
   MatrixXd x = MatrixXd::Ones(n, unknowns);
   for (Index i = 0; i < n; ++i)
     for (std::size_t c = 0; c < conditions.size(); ++c)
@@ -44,17 +43,10 @@ void add_trends(const TableModel& model, const std::vector<Index>& rows, std::ve
           std::log(*(model.rows[static_cast<std::size_t>(rows[i])].*conditions[c].member));
   if (Eigen::ColPivHouseholderQR<MatrixXd>(x).rank() < unknowns) return;
 
-  std::vector<MatrixXd> parts;
-  MatrixXd v = MatrixXd::Zero(n, n);
-  for (const UncertaintySource& source : kUncertaintySources) {
-    const VectorXd over = (source.part == &TableModel::noise ? y : f).cwiseInverse();
-    parts.push_back(over.asDiagonal() * (model.*source.part)(rows, rows) * over.asDiagonal());
-    v += parts.back();
-  }
-  const Eigen::LLT<MatrixXd> factor(v);
+  const Eigen::LLT<MatrixXd> factor(model.null_covariance()(rows, rows));
   const MatrixXd covariance = (x.transpose() * factor.solve(x)).inverse();
   const MatrixXd weights = covariance * factor.solve(x).transpose();  // unknowns x n
-  const VectorXd b = weights * (y.array() / f.array()).log().matrix();
+  const VectorXd b = weights * model.gap()(rows);
   for (std::size_t c = 0; c < conditions.size(); ++c) {
     const Index k = static_cast<Index>(c) + 1;
     Trend t;
@@ -66,9 +58,9 @@ void add_trends(const TableModel& model, const std::vector<Index>& rows, std::ve
     t.u = std::sqrt(covariance(k, k));
     t.z = t.exponent / t.u;
     t.p = std::erfc(std::fabs(t.z) / std::sqrt(2.0));
-    for (std::size_t s = 0; s < parts.size(); ++s) {
-      const double square = weights.row(k) * parts[s] * weights.row(k).transpose();
-      t.u_parts.emplace_back(kUncertaintySources[s].name, std::sqrt(std::max(0.0, square)));
+    for (const UncertaintySource& source : kUncertaintySources) {
+      const double square = weights.row(k) * (model.*source.part)(rows, rows) * weights.row(k).transpose();
+      t.u_parts.emplace_back(source.name, std::sqrt(std::max(0.0, square)));
     }
     trends.push_back(t);
   }

@@ -5,9 +5,9 @@
 // For each observable, by generalised least squares over its n rows,
 //   ln(y/f) = a + sum_c b_c ln(c) + error,   f the calibrated family's mean, c the conditions that are positive and
 //   differ there; b = (X' V^-1 X)^-1 X' V^-1 ln(y/f),   cov b = (X' V^-1 X)^-1,   z = b_c/u_c,
-// b_c the exponent by which the measurement departs from the simulation. V without any effect, to first order in the
-// logarithms: noise over y, the rest over f. q as for regions (Benjamini and Yekutieli). An observable that is not
-// positive somewhere has no trend, nor has one with as many unknowns as rows or with conditions that go together.
+// b_c the exponent by which the measurement departs from the simulation, V without any effect. q as for regions
+// (Benjamini and Yekutieli). The model is one in logarithms; an observable with a row that is not has no trend, nor has
+// one with as many unknowns as rows or with conditions that go together.
 #pragma once
 
 #include <string>

@@ -31,12 +31,14 @@ TableModel linear_model(const VectorXd& y, const std::vector<VectorXd>& slopes, 
   m.observed = y;
   m.baseline = VectorXd::Constant(n, 10);
   m.scale = m.baseline;
-  m.family_shift = m.relative = VectorXd::Zero(n);
+  m.family_shift = m.relative = m.logarithmic = VectorXd::Zero(n);
+  m.family_members = MatrixXd::Zero(n, 0);
   m.noise = MatrixXd::Identity(n, n) * 0.25;
   m.noise(0, 1) = m.noise(1, 0) = 0.1;
   for (auto member : {&TableModel::seed, &TableModel::emulator, &TableModel::family, &TableModel::discrepancy})
     m.*member = MatrixXd::Zero(n, n);
-  m.shape_correlation = m.unknown_correlation = MatrixXd::Identity(n, n);
+  m.shape_correlation = MatrixXd::Identity(n, n);
+  m.unknown_shapes = {m.shape_correlation};
   m.unknown_scale = VectorXd::Ones(n);
   int number = 0;
   for (const VectorXd& slope : slopes) {
@@ -166,6 +168,41 @@ TEST(GapRegions, TellWhatTheirUncertaintyComesFrom) {
   for (const char* none : {"seeds", "emulator", "contact law"}) EXPECT_EQ(parts.at(none), 0) << none;
 }
 
+// Two effects that multiply add up in logarithms; covariances become relative, an effect's over what it changes the value
+// to; a row that adds up stays as it is.
+TEST(GapLogarithms, MultiplyWhatTheValuesMultiply) {
+  VectorXd y(3), a(3), b(3);
+  y << 12, 8, -1;
+  a << 2, 3, 4;
+  b << -5, 1, 2;
+  TableModel m = linear_model(y, {a, b}, 0, 1);
+  m.relative << 1, 1, 0;
+  m.discrepancy = 4 * MatrixXd::Identity(3, 3);
+  for (EffectResponse& e : m.effects) e.covariance.assign(3, MatrixXd::Identity(3, 3));
+  m.family_members = MatrixXd(3, 2);
+  m.family_members << 0, 2, 0, 1, 0, 0;
+  m.family_weights = VectorXd::Constant(2, 0.5);
+  m.family_shift = m.family_members * m.family_weights;
+  const MatrixXd centred = m.family_members.colwise() - m.family_shift;
+  m.family = centred * m.family_weights.asDiagonal() * centred.transpose() + 0.01 * MatrixXd::Identity(3, 3);
+  const TableModel logs = m.in_logarithms(TableModel::NoiseOver::observed);
+  EXPECT_EQ(logs.logarithmic, (VectorXd(3) << 1, 1, 0).finished());
+  const VectorXd sum = mean_at(logs, {&logs.effects[0], &logs.effects[1]}, {1, 1});
+  // family: mean of ln 1 and ln 1.2, and of ln 1 and ln 1.1
+  EXPECT_NEAR(sum[0], std::log(10 * 1.2 * 0.5) + std::log(1.2) / 2, 1e-12);
+  EXPECT_NEAR(sum[1], std::log(10 * 1.3 * 1.1) + std::log(1.1) / 2, 1e-12);
+  EXPECT_NEAR(sum[2], 10 + 4 + 2, 1e-12);
+  EXPECT_NEAR(logs.noise(0, 1), 0.1 / (12 * 8), 1e-12);
+  EXPECT_NEAR(logs.noise(1, 2), 0, 1e-12);
+  EXPECT_NEAR(m.in_logarithms(TableModel::NoiseOver::baseline).noise(0, 0), 0.25 / 100, 1e-12);
+  EXPECT_NEAR(logs.discrepancy(0, 0), 0.04, 1e-12);
+  EXPECT_NEAR(logs.discrepancy(2, 2), 4, 1e-12);
+  EXPECT_NEAR(logs.family(0, 0), std::pow(std::log(1.2) / 2, 2) + 0.0001, 1e-12);
+  EXPECT_NEAR(logs.effects[1].emulator(1)(0, 0), 1 / (5.0 * 5.0), 1e-12);
+  EXPECT_NEAR(logs.effects[1].emulator(1)(2, 2), 1, 1e-12);
+  EXPECT_NEAR(logs.gap()[0], std::log(1.2) / 2, 1e-12);
+}
+
 // Four rows at two speeds and two fills, measured over simulated speed^-0.4 fill^0.2: the exponents come back. With
 // equal independent errors of s in the logarithm, u = s/sqrt(sum (ln c - mean)^2) = s/(ln of the ratio); an error that
 // all rows share adds nothing, one that grows with the logarithm of the speed adds its own exponent.
@@ -186,7 +223,10 @@ TEST(GapTrends, AreWhatRegionsCannotShow) {
   m.noise = (s * m.observed).array().square().matrix().asDiagonal();
   m.discrepancy = 0.09 * m.baseline * m.baseline.transpose();
   m.family = 0.01 * slope * slope.transpose();
-  const auto trends = trends_of(m);
+  m.relative.setOnes();
+  EXPECT_TRUE(trends_of(m).empty());  // values, not logarithms
+  const TableModel logs = m.in_logarithms(TableModel::NoiseOver::observed);
+  const auto trends = trends_of(logs);
   ASSERT_EQ(trends.size(), 2u);
   const Trend &speed = trends[trends[0].condition == "speed" ? 0 : 1],
               &fill = trends[trends[0].condition == "fill" ? 0 : 1];
@@ -199,10 +239,10 @@ TEST(GapTrends, AreWhatRegionsCannotShow) {
   EXPECT_NEAR(parts.at("calibration"), 0.1, 1e-9);
   EXPECT_NEAR(parts.at("contact law"), 0, 1e-7);
   // two rows cannot tell a level and two exponents; a condition of 0 (an axis that lies level) has no logarithm
-  EXPECT_TRUE(trends_of(m.part({0, 3})).empty());
+  EXPECT_TRUE(trends_of(logs.part({0, 3})).empty());
   for (Observation& row : m.rows) row.speed = 1, row.fill = std::nullopt, row.tilt = 0;
   m.rows[3].tilt = 45;
-  EXPECT_TRUE(trends_of(m).empty());
+  EXPECT_TRUE(trends_of(m.in_logarithms(TableModel::NoiseOver::observed)).empty());
 }
 
 TEST(GapSmoothing, ResponseIsZeroAtZeroAndLearnsACurve) {

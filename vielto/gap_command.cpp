@@ -83,10 +83,16 @@ struct Question {
     return keep;
   }
 
+  // The fit rows as thresholds and isolability take them: the values do not count.
+  TableModel before_data() const { return fit.in_logarithms(TableModel::NoiseOver::baseline); }
+
   Threshold threshold(const GapOptions& o) const {
     const auto keep = rows_of(table, "fit");
-    return bootstrap_threshold(inputs.emulator, fit, inputs.settings, o.seed, [&](const Emulator& e) {
-      return e.model(table, o.emulator(), inputs.settings).without(o.without).part(keep);
+    return bootstrap_threshold(inputs.emulator, before_data(), inputs.settings, o.seed, [&](const Emulator& e) {
+      return e.model(table, o.emulator(), inputs.settings)
+          .without(o.without)
+          .part(keep)
+          .in_logarithms(TableModel::NoiseOver::baseline);
     });
   }
   // What groups and threshold depend on: conditions and u of the fit rows, library, settings, rivals.
@@ -160,7 +166,7 @@ void write_json(const fs::path& path, const json& j) { write_whole_file(path.str
 
 void run_isolability(const GapOptions& o) {
   const Question q(o);
-  const Isolability i = isolability(q.fit, q.inputs.settings);
+  const Isolability i = isolability(q.before_data(), q.inputs.settings);
   const json j = isolability_json(i, q.threshold(o), q.fingerprint(o), q.inputs.provenance());
   if (!o.out.empty()) {
     fs::create_directories(o.out);
@@ -222,7 +228,7 @@ void write_answer(const GapOptions& o, const Question& q, const Diagnosis& d, co
 
 void run_diagnose(const GapOptions& o) {
   const Question q(o);
-  const Isolability i = isolability(q.fit, q.inputs.settings);
+  const Isolability i = isolability(q.before_data(), q.inputs.settings);
   write_answer(o, q, diagnosis_of(o, q, i), provenance_of(o, q));
 }
 
@@ -230,7 +236,7 @@ void run_confirm(const GapOptions& o) {
   const Question q(o);
   if (Question::rows_of(q.table, "check").empty())
     throw BadInput(o.table, 0, "holds no row of role check", "mark held-out tests: the shrink is measured on them");
-  const Isolability i = isolability(q.fit, q.inputs.settings);
+  const Isolability i = isolability(q.before_data(), q.inputs.settings);
   Diagnosis d = diagnosis_of(o, q, i);
   json provenance = provenance_of(o, q);
   if (d.verdict == "no_gap") {
