@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <mutex>
+#include <regex>
 #include <set>
 #include <thread>
 
@@ -15,6 +16,7 @@
 #include "condition.h"
 #include "csv.h"
 #include "rig.h"
+#include "sha256.h"
 
 namespace vielto::gap {
 namespace {
@@ -31,6 +33,12 @@ std::vector<double> medians(const ModelEvidence& m) {
   std::vector<double> s;
   for (std::size_t e = 0; e < m.effects.size(); ++e) s.push_back(m.strength(e).value);
   return s;
+}
+
+// What a command simulates: without the folder, and without the taking up of a run that was broken off.
+std::string simulated_by(const std::string& command) {
+  static const std::regex place(" -var (run|resume) [^ ]+");
+  return std::regex_replace(command, place, "");
 }
 
 }  // namespace
@@ -95,6 +103,7 @@ Plan plan_confirmation(const Inputs& inputs, const TableModel& model, const Diag
         run.apparatus = row.apparatus;
         run.seed = seed;
         run.folder = rig.folder;
+        run.files = rig.files;
         run.resumes = rig.known.count("resume") > 0;
         run.run = (fs::absolute(runs) / fmt::format("{}-{}-s{}", row.test, v.name, seed)).lexically_normal().string();
         run.command = {"liggghts", "-in", rig.script};
@@ -143,6 +152,27 @@ Plan plan_confirmation(const Inputs& inputs, const TableModel& model, const Diag
 std::string command_line(const PlannedRun& run) {
   return fmt::format("(cd '{}' && {}{})", run.folder, fmt::join(run.command, " "),
                      run.post.empty() ? "" : " && " + run.post);
+}
+
+void refuse_other_runs(const Plan& plan) {
+  std::map<std::string, std::string> hash_of_path;
+  for (const PlannedRun& run : plan.runs)
+    for (const char* state : {"", ".partial"}) {
+      const std::string folder = run.run + state, description = folder + "/run.json";
+      if (!fs::exists(description)) continue;
+      const nlohmann::json made = read_json(description);
+      const std::string mend = fmt::format("remove {} to run it anew, or state another --runs", folder);
+      if (simulated_by(made.value("command", "")) != simulated_by(fmt::format("{}", fmt::join(run.command, " "))))
+        throw BadInput(description, 0, "the run was made by another command than now planned", mend);
+      std::map<std::string, std::string> hash_of;
+      for (const std::string& file : run.files) {
+        std::string& hash = hash_of_path[file];
+        if (hash.empty()) hash = sha256_of_file(file);
+        hash_of[fs::path(file).filename().string()] = hash;
+      }
+      if (const std::string name = changed_file(made, hash_of); !name.empty())
+        throw BadInput(description, 0, fmt::format("the run was made from another {}", name), mend);
+    }
 }
 
 void run_plan(const Plan& plan, int jobs) {

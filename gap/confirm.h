@@ -5,8 +5,9 @@
 // A plan holds one `liggghts -in ... -var ...` for every check test, variant and seed (gap/rigs.toml says how a test
 // becomes a run). Effects on the measurement chain need no run of their own: they transform what the recalibrated
 // baseline shows; a shift of a condition is a run at the shifted condition. Runs that are complete (run.json there) are
-// not made again. `effects` are simulated at their median strengths together with the parameters of the family that fit
-// best with them. Check tests under equal conditions share their runs.
+// not made again; one that was made by another command or from other files is refused, complete or not. `effects` are
+// simulated at their median strengths together with the parameters of the family that fit best with them. Check tests
+// under equal conditions share their runs.
 #pragma once
 
 #include <map>
@@ -26,9 +27,10 @@ struct PlannedRun {
   std::string folder;  // where it is started
   std::string run;     // run folder
   std::vector<std::string> command;
-  std::string post;      // command line after it; empty: none
-  bool resumes = false;  // the rig takes up a run that was broken off; others begin anew
-  double share = 1;      // of a switched effect: part of the way from the recalibrated run to this one
+  std::vector<std::string> files;  // it is made from, besides
+  std::string post;                // command line after it; empty: none
+  bool resumes = false;            // the rig takes up a run that was broken off; others begin anew
+  double share = 1;                // of a switched effect: part of the way from the recalibrated run to this one
 };
 
 struct Variant {
@@ -52,6 +54,9 @@ Plan plan_confirmation(const Inputs& inputs, const TableModel& model, const Diag
 
 // A command line for a shell.
 std::string command_line(const PlannedRun& run);
+
+// Errors: BadInput naming a run folder that is there and was made by another command or from other files.
+void refuse_other_runs(const Plan& plan);
 
 // Runs what is missing, `jobs` at a time. Errors: std::runtime_error naming the command that failed; what has begun
 // ends first.

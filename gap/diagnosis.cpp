@@ -229,8 +229,7 @@ std::optional<Shrink> predicted_shrink(const TableModel& model, const Diagnosis&
 }
 
 Diagnosis diagnose(const TableModel& model, const Threshold& threshold, const Settings& settings) {
-  const TableModel fit =
-      model.part(rows_with_role(model, "fit")).in_logarithms(TableModel::NoiseOver::observed);
+  const TableModel fit = model.part(rows_with_role(model, "fit")).in_logarithms(TableModel::NoiseOver::observed);
   Diagnosis d;
   d.fit_rows = static_cast<int>(fit.size());
   d.check_rows = static_cast<int>(model.size()) - d.fit_rows;

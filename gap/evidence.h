@@ -5,8 +5,8 @@
 //   ln p(y|M) = ln integral p(s) N(y; f + b + r(s), C(s)) ds        (C: table_model.h)
 // by the midpoint rule on a grid that closes in on where the integrand is. Two effects where values multiply (relative
 // rows) act as r = r_1 + r_2 + r_1 r_2 / f. The unnamed gap: N(y; f + b, C(0) + a^2 D K D), D the effects' usual sizes,
-// K one of unknown_shapes, a even in the logarithm between two amplitudes, all as probable. Posterior probability of a model: prior times
-// evidence, over the sum; they sum to 1.
+// K one of unknown_shapes, a even in the logarithm between two amplitudes, all as probable. Posterior probability of a
+// model: prior times evidence, over the sum; they sum to 1.
 #pragma once
 
 #include <Eigen/Dense>

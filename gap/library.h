@@ -3,7 +3,8 @@
 //
 // A folder with these files (all but design.csv and the tables are optional):
 //
-// - design.csv: test,effect,strength,seed,run_hash,PARAMETER... One row a run; `test` is its name in the tables, one for
+// - design.csv: test,effect,strength,seed,run_hash,PARAMETER... One row a run; `test` is its name in the tables, one
+// for
 //   each run; `effect` none and strength 0: the baseline; PARAMETER: the calibrated parameters of the run. The
 //   baseline's own are those of most of its runs; baseline runs at other values show what recalibration can do. Runs
 //   with an effect are made at the baseline's own.

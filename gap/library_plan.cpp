@@ -178,13 +178,6 @@ void add_rig(LibraryPlan& plan, const TomlTable& t, const std::vector<Effect>& e
   }
 }
 
-json read_json(const std::string& path) {
-  std::ifstream in(path);
-  json j = json::parse(in, nullptr, false);
-  if (j.is_discarded()) throw BadInput(path, 0, "is no JSON", "make the run again");
-  return j;
-}
-
 }  // namespace
 
 LibraryPlan LibraryPlan::read(const std::string& path, const std::vector<Effect>& effects, const std::string& rigs_file,
@@ -296,10 +289,9 @@ Collected collect_library(const LibraryPlan& plan, const std::string& results, c
       continue;
     }
     json made = read_json(description);
-    for (const auto& [name, hash] : made["hashes"].items())
-      if (hash_of.count(name) && hash_of[name] != hash)
-        throw BadInput(description, 0, fmt::format("the run was made from another {}", name),
-                       "run it again, or bring the file back");
+    if (const std::string name = changed_file(made, hash_of); !name.empty())
+      throw BadInput(description, 0, fmt::format("the run was made from another {}", name),
+                     "run it again, or bring the file back");
     made["parameters"].erase("run");
     design +=
         fmt::format("{},{},{},{},{}{}\n", run.name, run.effect, number_text(run.strength), run.seed,

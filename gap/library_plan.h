@@ -18,7 +18,8 @@
 //   seeds = 1                                  optional
 //   [[bench]]                                  what the cards say, not simulated
 //   observable = "shaft_speed"
-//   rows = [{speed = 0.48, value = 0.48}]      slopes = {PARAMETER = d value/d PARAMETER}: how it goes with calibrated ones
+//   rows = [{speed = 0.48, value = 0.48}]      slopes = {PARAMETER = d value/d PARAMETER}: how it goes with calibrated
+//   ones
 //
 // Errors: BadInput with file, line and key.
 #pragma once
@@ -62,9 +63,9 @@ struct Collected {
   std::vector<std::string> missing;  // runs of the plan without a result
 };
 
-// Writes design.csv, observations.csv, sources.csv (sources.h), bench.csv, posterior.csv and inputs.csv to `folder` from the campaign's folder
-// `results` (runs/NAME/run.json, post/NAME.csv). Errors: BadInput also for a run that was made from other files than
-// those that are there now.
+// Writes design.csv, observations.csv, sources.csv (sources.h), bench.csv, posterior.csv and inputs.csv to `folder`
+// from the campaign's folder `results` (runs/NAME/run.json, post/NAME.csv). Errors: BadInput also for a run that was
+// made from other files than those that are there now.
 Collected collect_library(const LibraryPlan& plan, const std::string& results, const std::string& folder);
 
 }  // namespace vielto::gap

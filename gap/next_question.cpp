@@ -63,7 +63,8 @@ std::vector<NextTest> next_tests(const Inputs& inputs, const ReducedTable& fit, 
         if (std::all_of(m->effects.begin(), m->effects.end(), [&](const std::string& e) { return joint.effect(e); }))
           known.push_back(m);
       if (known.size() == open.size())
-        tests.push_back(judge_candidate(joint.in_logarithms(TableModel::NoiseOver::baseline), static_cast<Index>(fit.rows.size()), test, known));
+        tests.push_back(judge_candidate(joint.in_logarithms(TableModel::NoiseOver::baseline),
+                                        static_cast<Index>(fit.rows.size()), test, known));
       else
         notes.push_back(fmt::format("next test {}: the library lacks runs for it", test.name));
     } catch (const BadInput& error) {

@@ -5,6 +5,7 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 
 #include "bad_input.h"
 #include "par_file.h"
@@ -67,6 +68,21 @@ std::map<std::string, std::string> Rig::settings(const Effect& effect, double st
     changed[change.name] = change.text(change.needs_base() ? from.at(change.name) : 0, strength);
   }
   return changed;
+}
+
+std::string changed_file(const nlohmann::json& run, const std::map<std::string, std::string>& hash_of) {
+  for (const auto& [name, hash] : run.at("hashes").items()) {
+    const auto now = hash_of.find(name);
+    if (now != hash_of.end() && now->second != hash) return name;
+  }
+  return "";
+}
+
+nlohmann::json read_json(const std::string& path) {
+  std::ifstream in(path);
+  nlohmann::json j = nlohmann::json::parse(in, nullptr, false);
+  if (j.is_discarded()) throw BadInput(path, 0, "is no JSON", "make the run again");
+  return j;
 }
 
 }  // namespace vielto::gap

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <map>
+#include <nlohmann/json.hpp>
 #include <set>
 #include <string>
 #include <vector>
@@ -30,5 +31,12 @@ struct Rig {
   std::map<std::string, std::string> settings(const Effect& effect, double strength,
                                               const std::map<std::string, double>& base) const;
 };
+
+// Name of the first file a run was made from (the hashes of its run.json) that differs from the one of that name in
+// `hash_of`; empty if there is none.
+std::string changed_file(const nlohmann::json& run, const std::map<std::string, std::string>& hash_of);
+
+// Errors: BadInput if it is not there or no JSON.
+nlohmann::json read_json(const std::string& path);
 
 }  // namespace vielto::gap

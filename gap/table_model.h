@@ -30,21 +30,21 @@ struct EffectResponse {
   Eigen::MatrixXd emulator(double strength) const;
 };
 
-// The likelihood is of logarithms where effects multiply (in_logarithms): what is uncertain about a simulation is a factor, and a gap
-// by a third below is as large as one by a half above.
+// The likelihood is of logarithms where effects multiply (in_logarithms): what is uncertain about a simulation is a
+// factor, and a gap by a third below is as large as one by a half above.
 struct TableModel {
   std::vector<Observation> rows;
   Eigen::VectorXd observed, baseline, family_shift;
-  Eigen::VectorXd relative;  // 1 where effects multiply, 0 where they add up
-  Eigen::VectorXd scale;     // what a relative gap is relative to: the baseline, or the observable's usual size
+  Eigen::VectorXd relative;     // 1 where effects multiply, 0 where they add up
+  Eigen::VectorXd scale;        // what a relative gap is relative to: the baseline, or the observable's usual size
   Eigen::VectorXd logarithmic;  // 1 where the row is in logarithms
   Eigen::MatrixXd noise, seed, emulator, family, discrepancy;
   Eigen::MatrixXd family_members;  // n x m: each member less f; m = 0 without a family
   Eigen::VectorXd family_weights;
   Eigen::MatrixXd family_parameters;  // m x p
   Eigen::MatrixXd shape_correlation;
-  // Shapes a gap nobody named may have, one correlation each: smooth within an observable; a level and trends with its conditions. Alike within
-  // an apparatus.
+  // Shapes a gap nobody named may have, one correlation each: smooth within an observable; a level and trends with its
+  // conditions. Alike within an apparatus.
   std::vector<Eigen::MatrixXd> unknown_shapes;
   Eigen::VectorXd unknown_scale;  // the effects' usual size at each row
   std::vector<EffectResponse> effects;
@@ -56,8 +56,9 @@ struct TableModel {
   Eigen::MatrixXd null_covariance() const { return noise + seed + emulator + family + discrepancy; }
   Eigen::VectorXd gap() const { return observed - baseline - family_shift; }
   const EffectResponse* effect(const std::string& name) const;
-  // The same with logarithms in the rows that are relative and have a value above 0, covariances to first order: those of the simulation
-  // over f, the noise over the observed value, or over f too where the values do not count yet (thresholds, isolability).
+  // The same with logarithms in the rows that are relative and have a value above 0, covariances to first order: those
+  // of the simulation over f, the noise over the observed value, or over f too where the values do not count yet
+  // (thresholds, isolability).
   enum class NoiseOver { observed, baseline };
   TableModel in_logarithms(NoiseOver noise_over) const;
   // Only the rows with `keep`.

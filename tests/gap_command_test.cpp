@@ -343,6 +343,40 @@ TEST_F(GapCommand, ConfirmRunsEqualConditionsOnce) {
   EXPECT_EQ(out_.find("replicate"), std::string::npos) << out_;
 }
 
+// A run folder that is there counts only if it was made by the planned command and from the files that are there now.
+TEST_F(GapCommand, ConfirmRefusesARunOfAnotherStrengthOrOfOtherFiles) {
+  rows_.erase(std::remove_if(rows_.begin(), rows_.end(),
+                             [](const Observation& r) { return r.apparatus != "mixer" && r.role == "check"; }),
+              rows_.end());
+  write(rows_);
+  const std::string confirm =
+      "confirm t.csv --library library --draws 100 --out answer --runs runs --root " VIELTO_SOURCE_DIR;
+  ASSERT_EQ(gap(confirm), 0) << err_;
+  // The first run as planned, and the same of another strength or fill: the command as the rig records it.
+  const auto begin = out_.find("liggghts"), end = out_.find(" && vielto post");
+  ASSERT_NE(end, std::string::npos) << out_;
+  const std::string planned = out_.substr(begin, end - begin);
+  const auto run_at = planned.find("-var run ") + 9;
+  const std::string name = fs::path(planned.substr(run_at, planned.find(' ', run_at) - run_at)).filename();
+  const auto record = [&](const std::string& state, const std::string& command, const json& hashes) {
+    fs::remove_all(folder_ / "runs");
+    fs::create_directories(folder_ / "runs" / (name + state));
+    std::ofstream(folder_ / "runs" / (name + state) / "run.json") << json({{"command", command}, {"hashes", hashes}});
+  };
+  std::string other = planned;
+  other.replace(other.find("-var speed ") + 11, 4, "0.11");
+  for (const char* state : {"", ".partial"}) {
+    record(state, other, json::object());
+    EXPECT_EQ(gap(confirm + " --run"), 2) << out_ << err_;
+    expect_one_line("made by another command");
+    record(state, planned + (*state ? " -var resume yes" : ""), {{"in.mixer", std::string(64, '0')}});
+    EXPECT_EQ(gap(confirm + " --run"), 2) << out_ << err_;
+    expect_one_line("made from another in.mixer");
+    EXPECT_FALSE(fs::exists(folder_ / "answer")) << "a half-written answer";
+    EXPECT_TRUE(fs::exists(folder_ / "runs" / (name + state) / "run.json")) << "nothing is lost";
+  }
+}
+
 // An effect that starts from a baseline value starts from the one that --var states, and every -var is stated once:
 // LIGGGHTS takes the first of two.
 TEST_F(GapCommand, ConfirmTakesAnEffectFromTheStatedSetting) {

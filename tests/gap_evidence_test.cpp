@@ -168,8 +168,8 @@ TEST(GapRegions, TellWhatTheirUncertaintyComesFrom) {
   for (const char* none : {"seeds", "emulator", "contact law"}) EXPECT_EQ(parts.at(none), 0) << none;
 }
 
-// Two effects that multiply add up in logarithms; covariances become relative, an effect's over what it changes the value
-// to; a row that adds up stays as it is.
+// Two effects that multiply add up in logarithms; covariances become relative, an effect's over what it changes the
+// value to; a row that adds up stays as it is.
 TEST(GapLogarithms, MultiplyWhatTheValuesMultiply) {
   VectorXd y(3), a(3), b(3);
   y << 12, 8, -1;

@@ -256,6 +256,7 @@ void run_confirm(const GapOptions& o) {
     for (const PlannedRun& run : plan.runs) fmt::print("{}\n", command_line(run));
     return;
   }
+  refuse_other_runs(plan);
   // The prediction is on record before the runs begin.
   write_answer(o, q, d, provenance);
   run_plan(plan, o.jobs);
