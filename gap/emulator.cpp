@@ -473,6 +473,8 @@ TableModel Emulator::model(const ReducedTable& table, const EmulatorOptions& opt
       trend(i, j) += 0.8 * (1 + slopes) / (1 + static_cast<double>(point[i].c.size()));
     }
   model.unknown_shapes = {smooth, trend};
+  // settings.interaction is the part for two effects of the usual shape error
+  if (settings.shape_error > 0) model.interaction = settings.interaction / std::pow(settings.shape_error, 2);
   return model;
 }
 

@@ -116,6 +116,12 @@ MatrixXd covariance_at(const TableModel& model, const Effects& effects, const st
     const VectorXd r = effects[e]->shape_error * effects[e]->response(strengths[e]);
     c += effects[e]->emulator(strengths[e]) + r.asDiagonal() * model.shape_correlation * r.asDiagonal();
   }
+  if (effects.size() == 2) {
+    const VectorXd both = effects[0]->response(strengths[0]).cwiseProduct(effects[1]->response(strengths[1]));
+    const VectorXd r =
+        model.interaction * effects[0]->shape_error * effects[1]->shape_error * both.cwiseQuotient(model.scale);
+    c += r.asDiagonal() * model.shape_correlation * r.asDiagonal();
+  }
   return c;
 }
 

@@ -75,8 +75,9 @@ Settings Settings::read(const std::string& path) {
     file.refuse("prior", "does not sum to 1", "state probabilities that sum to 1");
 
   const TomlTable effect = file.table("effect");
-  effect.only({"shape_error"});
+  effect.only({"shape_error", "interaction"});
   s.shape_error = effect.number("shape_error", 0, 1);
+  s.interaction = effect.number("interaction", 0, 10);
 
   const TomlTable unknown = file.table("unknown");
   unknown.only({"amplitude_low", "amplitude_high", "floor"});

@@ -6,6 +6,8 @@
 //   C(s) = noise + seed + emulator + family + discrepancy + sum_e [emulator_e(s) + eta_e^2 R_e(s) G R_e(s)]
 // f baseline, b the family's mean less f, r the effects' responses, R = diag(r), G the shape correlation: an effect's
 // response may be off by eta of itself, half of that variance common to an observable, half of each condition's own.
+// Two effects have one term more, r the product of their responses over the scale and eta that of their shape errors
+// times `interaction`: together they may do more or less than each by itself.
 #pragma once
 
 #include <Eigen/Dense>
@@ -43,6 +45,8 @@ struct TableModel {
   Eigen::VectorXd family_weights;
   Eigen::MatrixXd family_parameters;  // m x p
   Eigen::MatrixXd shape_correlation;
+  double interaction =
+      0;  // what two effects do together beyond their rule: interaction eta_a eta_b r_a r_b/scale, as sd
   // Shapes a gap nobody named may have, one correlation each: smooth within an observable; a level and trends with its
   // conditions. Alike within an apparatus.
   std::vector<Eigen::MatrixXd> unknown_shapes;

@@ -100,6 +100,27 @@ TEST(GapEvidence, TwoEffectsAgainstTheClosedForm) {
   }
 }
 
+// What two effects do together is uncertain by a part of the product of their responses; one alone knows nothing of it.
+TEST(GapEvidence, AnInteractionWidensAPairOnly) {
+  VectorXd y(2), a(2), b(2);
+  y << 10, 10;
+  a << 2, 1;
+  b << 3, -1;
+  TableModel m = linear_model(y, {a, b}, 0, 1);
+  m.shape_correlation << 1, 0.5, 0.5, 1;
+  m.scale << 10, 5;
+  m.effects[0].shape_error = m.effects[1].shape_error = 0.1;
+  const std::vector<const EffectResponse*> pair = {&m.effects[0], &m.effects[1]};
+  const MatrixXd without = covariance_at(m, pair, {1, 0.5}), alone = covariance_at(m, {pair[0]}, {1});
+  m.interaction = 20;
+  EXPECT_EQ(covariance_at(m, {pair[0]}, {1}), alone);
+  const MatrixXd more = covariance_at(m, pair, {1, 0.5}) - without;
+  const double first = 20 * 0.01 * 2 * 1.5 / 10, second = 20 * 0.01 * 1 * -0.5 / 5;
+  EXPECT_NEAR(more(0, 0), first * first, 1e-12);
+  EXPECT_NEAR(more(1, 1), second * second, 1e-12);
+  EXPECT_NEAR(more(0, 1), 0.5 * first * second, 1e-12);
+}
+
 TEST(GapEvidence, ProbabilitiesSumToOneAndFollowTheData) {
   Settings settings;
   settings.prior_no_gap = 0.5, settings.prior_single = 0.3, settings.prior_pair = 0.1, settings.prior_unknown = 0.1;
