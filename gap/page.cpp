@@ -96,16 +96,28 @@ std::string without_a_gap(const json& where) {
       100 * (*largest)["u"].get<double>(), mostly_from(*largest, 100, "{:.0f} %"));
 }
 
-// A verdict on single regions and effects can miss what goes through all of them.
-std::string trends_found(const json& trends) {
+// Whether there is a gap at all hangs on a threshold that is itself known from so many draws only.
+std::string close_call(const json& odds) {
+  const double best = odds["best_rival"].get<double>(), low = odds["threshold_low95"].get<double>(),
+               high = odds["threshold_high95"].get<double>();
+  if (best < low || best > high) return "";
+  return fmt::format(
+      "<p><b>A close call:</b> the log odds of the best rival over no gap, {:.1f}, lie within the uncertainty of the "
+      "threshold, {:.1f} (95 %: {:.1f} &hellip; {:.1f}).</p>\n",
+      best, odds["threshold"].get<double>(), low, high);
+}
+
+// A verdict on single regions and effects can miss what goes through all of them, or be of nothing else.
+std::string trends_found(const json& trends, const char* words) {
   std::string text;
   for (const json& t : trends)
     if (t["q_value"].get<double>() <= 0.05)
       text += fmt::format(
-          "<p><b>But a trend is off:</b> {} {}, measured over simulated, goes with {} to the power {:+.2f} &plusmn; "
+          "<p><b>{}:</b> {} {}, measured over simulated, goes with {} to the power {:+.2f} &plusmn; "
           "{:.2f} (q {:.2g}).</p>\n",
-          t["apparatus"].get<std::string>(), t["observable"].get<std::string>(), t["condition"].get<std::string>(),
-          t["exponent"].get<double>(), t["u"].get<double>(), t["q_value"].get<double>());
+          words, t["apparatus"].get<std::string>(), t["observable"].get<std::string>(),
+          t["condition"].get<std::string>(), t["exponent"].get<double>(), t["u"].get<double>(),
+          t["q_value"].get<double>());
   return text;
 }
 
@@ -198,7 +210,9 @@ std::string diagnosis_page(const json& d, const std::string& title) {
   page += fmt::format("<p>{:.0f} % of the gap could be absorbed by recalibration, {:.0f} % needs something new.</p>\n",
                       100 * d["absorbable_by_recalibration"].get<double>(),
                       100 - 100 * d["absorbable_by_recalibration"].get<double>());
-  if (d["verdict"] == "no_gap") page += trends_found(d["trends"]) + without_a_gap(d["where"]);
+  page += close_call(d["log_odds"]);
+  if (d["verdict"] == "no_gap") page += trends_found(d["trends"], "But a trend is off") + without_a_gap(d["where"]);
+  if (d["verdict"] == "unknown") page += trends_found(d["trends"], "What is off is a trend");
   page += "<h2>Where</h2>\n" + map_of_the_gap(d["where"]) + trends_table(d["trends"]);
   page += "<h2>Which effect</h2>\n" + ranking(d["probabilities"]);
   page += "<h2>How far the gap closes</h2>\n";

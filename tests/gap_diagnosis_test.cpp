@@ -224,6 +224,19 @@ TEST(GapPage, ShowsNoRunWithAnUnknownEffect) {
   EXPECT_NE(diagnosis_page(answer, "wall B").find("with the effect"), std::string::npos);
 }
 
+// Whether there is a gap hangs on a threshold from so many draws: the page says so where it could fall either way.
+TEST(GapPage, CallsACloseCallClose) {
+  std::ifstream in(VIELTO_SOURCE_DIR "/gap/answers/wheat-wall-B/diagnosis.json");
+  nlohmann::ordered_json answer = nlohmann::ordered_json::parse(in);
+  answer["log_odds"]["threshold"] = 1.8;
+  answer["log_odds"]["threshold_low95"] = 1.5;
+  answer["log_odds"]["threshold_high95"] = 2.8;
+  for (const auto& [best, close] : {std::pair(2.1, true), {1.6, true}, {1.4, false}, {2.9, false}}) {
+    answer["log_odds"]["best_rival"] = best;
+    EXPECT_EQ(diagnosis_page(answer, "wall B").find("A close call") != std::string::npos, close) << best;
+  }
+}
+
 // "No gap" must not read as "the simulation is right": the page tells how large a gap would have been seen.
 TEST(GapPage, OfNoGapTellsWhatCouldHideOne) {
   nlohmann::ordered_json answer;
@@ -249,6 +262,9 @@ TEST(GapPage, OfNoGapTellsWhatCouldHideOne) {
   EXPECT_NE(
       diagnosis_page(answer, "mixer").find("mixer power, measured over simulated, goes with speed to the power -0.30"),
       std::string::npos);
+  answer["verdict"] = "unknown";
+  EXPECT_NE(diagnosis_page(answer, "mixer").find("What is off is a trend"), std::string::npos);
+  answer["verdict"] = "no_gap";
   answer["trends"][0]["q_value"] = 0.2;
   EXPECT_EQ(diagnosis_page(answer, "mixer").find("a trend is off"), std::string::npos);
   const std::string page = diagnosis_page(answer, "mixer");
