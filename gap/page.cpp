@@ -62,7 +62,8 @@ std::string map_of_the_gap(const json& where) {
   return "<table><tr><th>observable</th><th>region</th><th>measured against "
          "simulated</th><th>gap</th><th>u</th><th>u mostly from</th><th>z</th><th>q</th></tr>\n" +
          rows +
-         "</table>\n<p>u: standard uncertainty of the gap, all that is uncertain included. Red: a gap, at a "
+         "</table>\n<p>u: relative standard uncertainty of measured over simulated, all that is uncertain included; z: "
+         "of its logarithm. Red: a gap, at a "
          "false-discovery rate of 5 %. Grey: a gap smaller than about twice its u cannot be told from nothing.</p>\n";
 }
 

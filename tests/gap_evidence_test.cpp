@@ -189,6 +189,21 @@ TEST(GapRegions, TellWhatTheirUncertaintyComesFrom) {
   for (const char* none : {"seeds", "emulator", "contact law"}) EXPECT_EQ(parts.at(none), 0) << none;
 }
 
+// Measured over simulated 0.8 and 0.8 with relative noise of 5 % each: the gap told is -20 %, z is ln 0.8 over 5
+// %/sqrt 2.
+TEST(GapRegions, TellTheGapOfLogarithmsAsAFactor) {
+  VectorXd y(2);
+  y << 8, 8;
+  TableModel m = linear_model(y, {}, 0, 1);
+  m.relative.setOnes();
+  m.noise = MatrixXd::Identity(2, 2) * std::pow(0.05 * 8, 2);
+  for (Observation& row : m.rows) row.apparatus = "mixer", row.observable = "power", row.speed = 1;
+  const Region r = locate(m.in_logarithms(TableModel::NoiseOver::observed)).regions.at(0);
+  EXPECT_NEAR(r.relative_gap, -0.2, 1e-12);
+  EXPECT_NEAR(r.u, 0.05 / std::sqrt(2.0), 1e-12);
+  EXPECT_NEAR(r.z, std::log(0.8) * std::sqrt(2.0) / 0.05, 1e-9);
+}
+
 // Two effects that multiply add up in logarithms; covariances become relative, an effect's over what it changes the
 // value to; a row that adds up stays as it is.
 TEST(GapLogarithms, MultiplyWhatTheValuesMultiply) {
