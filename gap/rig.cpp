@@ -71,7 +71,9 @@ std::map<std::string, std::string> Rig::settings(const Effect& effect, double st
 }
 
 std::string changed_file(const nlohmann::json& run, const std::map<std::string, std::string>& hash_of) {
-  for (const auto& [name, hash] : run.at("hashes").items()) {
+  const auto hashes = run.find("hashes");
+  if (hashes == run.end()) return "";
+  for (const auto& [name, hash] : hashes->items()) {
     const auto now = hash_of.find(name);
     if (now != hash_of.end() && now->second != hash) return name;
   }
@@ -81,7 +83,7 @@ std::string changed_file(const nlohmann::json& run, const std::map<std::string, 
 nlohmann::json read_json(const std::string& path) {
   std::ifstream in(path);
   nlohmann::json j = nlohmann::json::parse(in, nullptr, false);
-  if (j.is_discarded()) throw BadInput(path, 0, "is no JSON", "make the run again");
+  if (!j.is_object()) throw BadInput(path, 0, "is no JSON object", "make the run again");
   return j;
 }
 

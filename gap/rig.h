@@ -36,7 +36,7 @@ struct Rig {
 // `hash_of`; empty if there is none.
 std::string changed_file(const nlohmann::json& run, const std::map<std::string, std::string>& hash_of);
 
-// Errors: BadInput if it is not there or no JSON.
+// Errors: BadInput if it is not there or no JSON object.
 nlohmann::json read_json(const std::string& path);
 
 }  // namespace vielto::gap

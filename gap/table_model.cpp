@@ -61,7 +61,7 @@ TableModel TableModel::in_logarithms(NoiseOver noise_over) const {
   TableModel p = *this;
   VectorXd over_f = VectorXd::Ones(size()), over_noise = over_f;
   for (Index i = 0; i < size(); ++i) {
-    if (!(relative[i] > 0 && observed[i] > 0)) continue;
+    if (relative[i] == 0 || (noise_over == NoiseOver::observed && observed[i] <= 0)) continue;
     p.logarithmic[i] = p.scale[i] = 1;
     p.relative[i] = 0;  // what multiplied adds up
     over_f[i] = 1 / baseline[i];

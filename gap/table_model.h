@@ -45,8 +45,7 @@ struct TableModel {
   Eigen::VectorXd family_weights;
   Eigen::MatrixXd family_parameters;  // m x p
   Eigen::MatrixXd shape_correlation;
-  double interaction =
-      0;  // what two effects do together beyond their rule: interaction eta_a eta_b r_a r_b/scale, as sd
+  double interaction = 0;  // of two effects: interaction eta_a eta_b r_a r_b/scale, a standard deviation
   // Shapes a gap nobody named may have, one correlation each: smooth within an observable; a level and trends with its
   // conditions. Alike within an apparatus.
   std::vector<Eigen::MatrixXd> unknown_shapes;
@@ -61,8 +60,8 @@ struct TableModel {
   Eigen::VectorXd gap() const { return observed - baseline - family_shift; }
   const EffectResponse* effect(const std::string& name) const;
   // The same with logarithms in the rows that are relative and have a value above 0, covariances to first order: those
-  // of the simulation over f, the noise over the observed value, or over f too where the values do not count yet
-  // (thresholds, isolability).
+  // of the simulation over f, the noise over the observed value. NoiseOver::baseline is for thresholds and isolability,
+  // where no value counts yet: the noise over f too, and logarithms whatever stands in place of a value.
   enum class NoiseOver { observed, baseline };
   TableModel in_logarithms(NoiseOver noise_over) const;
   // Only the rows with `keep`.

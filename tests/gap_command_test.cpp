@@ -374,6 +374,9 @@ TEST_F(GapCommand, ConfirmRefusesARunOfAnotherStrengthOrOfOtherFiles) {
     expect_one_line("made from another in.mixer");
     EXPECT_FALSE(fs::exists(folder_ / "answer")) << "a half-written answer";
     EXPECT_TRUE(fs::exists(folder_ / "runs" / (name + state) / "run.json")) << "nothing is lost";
+    std::ofstream(folder_ / "runs" / (name + state) / "run.json") << "[]";
+    EXPECT_EQ(gap(confirm + " --run"), 2) << out_ << err_;
+    expect_one_line("is no JSON object");
   }
 }
 

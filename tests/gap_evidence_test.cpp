@@ -231,6 +231,13 @@ TEST(GapLogarithms, MultiplyWhatTheValuesMultiply) {
   EXPECT_NEAR(logs.noise(0, 1), 0.1 / (12 * 8), 1e-12);
   EXPECT_NEAR(logs.noise(1, 2), 0, 1e-12);
   EXPECT_NEAR(m.in_logarithms(TableModel::NoiseOver::baseline).noise(0, 0), 0.25 / 100, 1e-12);
+  // Before the data any number may stand in place of a value: what is sealed does not depend on it.
+  TableModel blank = m;
+  blank.observed.setZero();
+  EXPECT_EQ(blank.in_logarithms(TableModel::NoiseOver::baseline).logarithmic, logs.logarithmic);
+  EXPECT_EQ(blank.in_logarithms(TableModel::NoiseOver::baseline).null_covariance(),
+            m.in_logarithms(TableModel::NoiseOver::baseline).null_covariance());
+  EXPECT_EQ(blank.in_logarithms(TableModel::NoiseOver::observed).logarithmic, VectorXd::Zero(3));
   EXPECT_NEAR(logs.discrepancy(0, 0), 0.04, 1e-12);
   EXPECT_NEAR(logs.discrepancy(2, 2), 4, 1e-12);
   EXPECT_NEAR(logs.family(0, 0), std::pow(std::log(1.2) / 2, 2) + 0.0001, 1e-12);
