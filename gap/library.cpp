@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::set<std::string> kOwnFiles = {"design.csv", "posterior.csv", "discrepancy.csv",
+const std::set<std::string> kOwnFiles = {"design.csv", "posterior.csv", "members.csv",   "discrepancy.csv",
                                          "inputs.csv", "sources.csv",   "covariance.csv"};
 
 void read_design(Library& library, const std::vector<Effect>& effects) {

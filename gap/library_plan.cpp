@@ -190,9 +190,16 @@ LibraryPlan LibraryPlan::read(const std::string& path, const std::vector<Effect>
   std::vector<std::size_t> members;  // rows of the file, from 0
   if (file.has("family")) {
     const TomlTable t = file.table("family");
-    t.only({"file", "members"});
-    plan.family_file = (fs::path(path).parent_path() / t.text("file")).lexically_normal().string();
+    t.only({"file", "members", "members_from"});
+    const auto file_of = [&](const char* key) {
+      return (fs::path(path).parent_path() / t.text(key)).lexically_normal().string();
+    };
+    plan.posterior_file = file_of("file");
+    plan.family_file = t.has("members_from") ? file_of("members_from") : plan.posterior_file;
     family = read_family_file(plan.family_file);
+    if (plan.family_file != plan.posterior_file && read_family_file(plan.posterior_file).names != family.names)
+      throw BadInput(plan.family_file, 1, fmt::format("has other parameters than {}", plan.posterior_file),
+                     "write the same columns in the same order");
     members = places_of(t, "members", family.members.size(), "member of the family");
     plan.parameter_names = family.names;
   }
@@ -319,8 +326,9 @@ Collected collect_library(const LibraryPlan& plan, const std::string& results, c
     write_whole_file(path("sources.csv"), sources);  // the mixer's parts only
   if (!plan.bench.empty()) write_observations(path("bench.csv"), plan.bench);
   if (!plan.family_file.empty()) {
-    fs::copy_file(plan.family_file, path("posterior.csv"), fs::copy_options::overwrite_existing);
-    inputs[fs::relative(plan.family_file, folder).string()] = sha256_of_file(plan.family_file);
+    fs::copy_file(plan.posterior_file, path("posterior.csv"), fs::copy_options::overwrite_existing);
+    for (const std::string& file : {plan.posterior_file, plan.family_file})
+      inputs[fs::relative(file, folder).string()] = sha256_of_file(file);
   }
   std::string list = "file,sha256\n";
   for (const auto& [file, hash] : inputs) list += file + "," + hash + "\n";

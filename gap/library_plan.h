@@ -6,6 +6,8 @@
 //   [family]                                   optional
 //   file = "PATH"                              weight,PARAMETER...; the library's posterior
 //   members = [9, 25]                          rows of it that are run, from 1
+//   members_from = "PATH"                      optional, same columns: `members` are rows of this file. A new posterior
+//                                              within their range then needs no new runs
 //   [[rig]]
 //   name = "mixer"                             of gap/rigs.toml
 //   settings = {grainDiameter = "0.012"}       -var of all its runs
@@ -44,8 +46,8 @@ struct LibraryRun {
 
 struct LibraryPlan {
   std::vector<std::string> parameter_names;  // of the family; empty: none
-  std::string family_file;
-  std::map<std::string, double> baseline;  // the family's parameters as the cards state them
+  std::string posterior_file, family_file;   // what is integrated over; where the members that are run stand
+  std::map<std::string, double> baseline;    // the family's parameters as the cards state them
   std::vector<LibraryRun> runs;
   std::vector<Observation> bench;  // of the baseline, and of each member for rows with slopes
   std::vector<std::map<std::string, double>> bench_parameters;

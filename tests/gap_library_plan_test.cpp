@@ -155,6 +155,35 @@ TEST_F(GapLibraryPlan, AConditionMayHaveSeedsOfItsOwn) {
   EXPECT_EQ(seeds["1.5"], 8);
 }
 
+// A new posterior within the range of the members that were run needs no new runs: these stand in a file of their own.
+TEST_F(GapLibraryPlan, MembersOfAnEarlierPosteriorStayWhenItIsReplaced) {
+  write("library/members.csv", "weight,frictionAngle,rollingResistance\n1,18,0.05\n1,30,0.5\n");
+  std::string text = kPlan;
+  const std::string old = "members = [2, 4]";
+  write("library/plan.toml",
+        text.replace(text.find(old), old.size(), "members = [1, 2]\nmembers_from = \"members.csv\""));
+  ASSERT_EQ(plan(), 0) << err_;
+  const std::string study = content(folder_ / "study.csv");
+  std::map<std::string, std::string> friction;
+  for (const auto& row : table(folder_ / "study.csv")) friction[row.at("run")] = row.at("frictionAngle");
+  EXPECT_EQ(friction.at("mixer2_member1_s101"), "18");
+  EXPECT_EQ(friction.at("mixer2_member2_s102"), "30");
+
+  write("family.csv", "weight,frictionAngle,rollingResistance\n1,21,0.15\n3,23,0.25\n");
+  ASSERT_EQ(plan(), 0) << err_;
+  EXPECT_EQ(content(folder_ / "study.csv"), study);
+  const std::string hash = script_hash();
+  for (const auto& run : table(folder_ / "study.csv")) finish(run, hash);
+  ASSERT_EQ(collect(), 0) << err_;
+  EXPECT_EQ(content(folder_ / "library/posterior.csv"), content(folder_ / "family.csv"));
+  EXPECT_NE(content(folder_ / "library/inputs.csv").find("\nmembers.csv,"), std::string::npos);
+  write("t.csv",
+        "test,role,apparatus,observable,value,u,unit,speed,fill,moisture,normal_stress,shear_velocity,tilt,wall,"
+        "material\n"
+        "a,fit,mixer,power,21,0.5,W,0.5,0.1,,,,,,millet\nb,fit,mixer,power,21,0.5,W,1.5,0.2,,,,,,millet\n");
+  EXPECT_EQ(gap("diagnose t.csv --library library --draws 20 --out answer"), 0) << err_;
+}
+
 // The drum has a stiffness of its own, which holds over the card's: half a decade more is half a decade of the drum's.
 TEST_F(GapLibraryPlan, AnEffectStartsFromWhatTheRigItselfStates) {
   write("library/plan.toml",
@@ -205,7 +234,8 @@ TEST_F(GapLibraryPlan, CollectsWhatIsDoneAndNamesTheRest) {
     EXPECT_NE(page.find(words), std::string::npos) << words;
 }
 
-// A bench row that goes with calibrated parameters is stated for each member too: half a degree of the wall for one of the grain.
+// A bench row that goes with calibrated parameters is stated for each member too: half a degree of the wall for one of
+// the grain.
 TEST_F(GapLibraryPlan, BenchRowsGoWithTheFamily) {
   std::string text = kPlan;
   const std::string row = "{value = 25}";
@@ -214,8 +244,7 @@ TEST_F(GapLibraryPlan, BenchRowsGoWithTheFamily) {
   ASSERT_EQ(plan(), 0) << err_;
   for (const auto& run : table(folder_ / "study.csv")) finish(run, script_hash());
   ASSERT_EQ(collect(), 0) << err_;
-  const double own =
-      vielto::ParFile::read(VIELTO_SOURCE_DIR "/materials/hulled_millet.par").number("frictionAngle");
+  const double own = vielto::ParFile::read(VIELTO_SOURCE_DIR "/materials/hulled_millet.par").number("frictionAngle");
   std::map<std::string, double> friction;
   for (const auto& run : table(folder_ / "library/design.csv"))
     friction[run.at("test")] = std::stod(run.at("frictionAngle"));
@@ -264,6 +293,8 @@ TEST_F(GapLibraryPlan, RefusesAPlanThatCannotBeRun) {
   refused("members = [2, 4]", "members = [5]", "5 is no member of the family");
   refused("wall_angle", "wall_angel", "is no bench observable");
   refused("../family.csv", "nothing.csv", "cannot be read");
+  write("other.csv", "weight,frictionAngle\n1,20\n1,22\n1,24\n1,26\n");
+  refused("members = [2, 4]", "members = [2, 4]\nmembers_from = \"../other.csv\"", "has other parameters than");
 }
 
 }  // namespace
