@@ -45,7 +45,8 @@ std::string simulated_by(const std::string& command) {
 
 Plan plan_confirmation(const Inputs& inputs, const TableModel& model, const Diagnosis& d,
                        const Isolability& isolability, const std::string& rigs_file, const std::string& root,
-                       const std::string& runs, int seeds, const std::vector<std::string>& extra) {
+                       const std::string& runs, int seeds, const std::vector<std::string>& extra,
+                       const std::map<std::string, double>& known) {
   std::vector<Index> fit_rows;
   for (std::size_t i = 0; i < model.rows.size(); ++i)
     if (model.rows[i].role == "fit") fit_rows.push_back(static_cast<Index>(i));
@@ -60,6 +61,10 @@ Plan plan_confirmation(const Inputs& inputs, const TableModel& model, const Diag
     }
     if (name != "before" && fit.family_weights.size() > 0)
       v.parameters = recalibrated_parameters(fit, v.effects, v.strengths);
+    for (const auto& [effect, strength] : known) {
+      v.effects.push_back(effect);
+      v.strengths.push_back(strength);
+    }
     plan.variants.push_back(v);
   };
   add_variant("before", nullptr);
@@ -135,9 +140,17 @@ Plan plan_confirmation(const Inputs& inputs, const TableModel& model, const Diag
         for (std::size_t e = 0; e < v.effects.size(); ++e) {
           if (v.strengths[e] == 0) continue;
           const Effect& effect = effect_named(inputs, v.effects[e]);
-          for (const auto& [name, value] : rig.settings(effect, v.strengths[e], base)) changed[name] = value;
+          for (const auto& [name, value] : rig.settings(effect, v.strengths[e], base)) {
+            changed[name] = value;
+            if (const auto number = finite_number(value)) base[name] = *number;
+          }
           for (const VarChange& change : effect.vars)
-            if (change.acts_on(row.apparatus) && change.rule == VarRule::switched) run.share = v.strengths[e];
+            if (change.acts_on(row.apparatus) && change.rule == VarRule::switched) {
+              if (known.count(effect.name) && v.strengths[e] != 1)
+                throw BadInput("--known " + effect.name, 0, "is a switch: a run has it wholly or not",
+                               "state strength 1, or leave it a candidate");
+              if (known.count(effect.name) == 0) run.share = v.strengths[e];
+            }
         }
         for (const auto& [name, value] : changed) var(name, value);
         var("seed", fmt::format("{}", seed));

@@ -47,10 +47,11 @@ struct Plan {
 };
 
 // `root`: the folder that gap/rigs.toml's paths start from; `runs`: where the run folders go; `extra`: further -var for
-// all. Errors: BadInput for a rig without an entry or a script that is not there.
+// all; `known`: effects that every run has. Errors: BadInput for a rig without an entry or a script that is not there.
 Plan plan_confirmation(const Inputs& inputs, const TableModel& model, const Diagnosis& diagnosis,
                        const Isolability& isolability, const std::string& rigs, const std::string& root,
-                       const std::string& runs, int seeds, const std::vector<std::string>& extra);
+                       const std::string& runs, int seeds, const std::vector<std::string>& extra,
+                       const std::map<std::string, double>& known);
 
 // A command line for a shell.
 std::string command_line(const PlannedRun& run);

@@ -335,7 +335,7 @@ TableModel Emulator::model(const ReducedTable& table, const EmulatorOptions& opt
   model.observed.resize(n);
   model.noise = MatrixXd(table.covariance);
   for (auto member : {&TableModel::baseline, &TableModel::family_shift, &TableModel::relative, &TableModel::scale,
-                      &TableModel::logarithmic, &TableModel::unknown_scale})
+                      &TableModel::logarithmic, &TableModel::unknown_scale, &TableModel::known_change})
     model.*member = VectorXd::Zero(n);
   for (auto member : {&TableModel::seed, &TableModel::emulator, &TableModel::family, &TableModel::discrepancy,
                       &TableModel::shape_correlation})
@@ -427,6 +427,18 @@ TableModel Emulator::model(const ReducedTable& table, const EmulatorOptions& opt
   if (discrepancies_.empty() || !options.use_discrepancy)
     model.notes.push_back("no law discrepancy is given: false alarms are more frequent than stated");
 
+  const auto refuse_known = [](const std::string& name, const std::string& what, const std::string& mend) {
+    throw BadInput("--known " + name, 0, what, mend);
+  };
+  for (const auto& [name, strength] : options.known) {
+    const auto effect =
+        std::find_if(effects_.begin(), effects_.end(), [n = name](const Effect& e) { return e.name == n; });
+    if (effect == effects_.end()) refuse_known(name, "is no effect", "name one of the effects' folder");
+    if (strength < effect->prior_low || strength > effect->prior_high)
+      refuse_known(name,
+                   fmt::format("{} is outside its range of {} to {}", strength, effect->prior_low, effect->prior_high),
+                   "state a strength within it");
+  }
   for (const Effect& effect : effects_) {
     EffectResponse response;
     response.name = effect.name;
@@ -445,6 +457,8 @@ TableModel Emulator::model(const ReducedTable& table, const EmulatorOptions& opt
         known = false;
     }
     if (!known) {
+      if (options.known.count(effect.name))
+        refuse_known(effect.name, "the library has no runs with it for all the table's observables", "add them");
       model.notes.push_back(fmt::format(
           "{} is no candidate: the library has no runs with it for all the table's observables", effect.name));
       continue;
@@ -452,6 +466,12 @@ TableModel Emulator::model(const ReducedTable& table, const EmulatorOptions& opt
     for (const auto& [channel, rows] : by_channel) fill_effect(*channel, effect, rows, model, response);
     if (response.mean.isZero(0)) continue;  // acts on nothing in this table
     model.effects.push_back(std::move(response));
+  }
+
+  for (const auto& [name, strength] : options.known) {
+    if (!model.effect(name)) continue;  // acts on nothing here
+    model = model.with_known(name, strength);
+    model.notes.push_back(fmt::format("{} at strength {} is part of the baseline", name, strength));
   }
 
   // An unnamed gap: as large as the effects are at each row; smooth, or a level and a trend with each condition.

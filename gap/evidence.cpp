@@ -112,10 +112,7 @@ VectorXd mean_at(const TableModel& model, const Effects& effects, const std::vec
 
 MatrixXd covariance_at(const TableModel& model, const Effects& effects, const std::vector<double>& strengths) {
   MatrixXd c = model.null_covariance();
-  for (std::size_t e = 0; e < effects.size(); ++e) {
-    const VectorXd r = effects[e]->shape_error * effects[e]->response(strengths[e]);
-    c += effects[e]->emulator(strengths[e]) + r.asDiagonal() * model.shape_correlation * r.asDiagonal();
-  }
+  for (std::size_t e = 0; e < effects.size(); ++e) c += model.uncertain(*effects[e], strengths[e]);
   if (effects.size() == 2) {
     const VectorXd both = effects[0]->response(strengths[0]).cwiseProduct(effects[1]->response(strengths[1]));
     const VectorXd r =

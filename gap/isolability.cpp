@@ -21,21 +21,16 @@ std::vector<double> probe_strengths(const EffectResponse& e, Index step) {
   return s;
 }
 
-MatrixXd effect_covariance(const TableModel& model, const EffectResponse& e, double s) {
-  const VectorXd r = e.shape_error * e.response(s);
-  return e.emulator(s) + r.asDiagonal() * model.shape_correlation * r.asDiagonal();
-}
-
 double squared(const VectorXd& d, const MatrixXd& c) { return c.llt().matrixL().solve(d).squaredNorm(); }
 
 }  // namespace
 
 double distance(const TableModel& model, const EffectResponse& a, double s, const EffectResponse& b) {
   const VectorXd ra = a.response(s);
-  const MatrixXd ca = model.null_covariance() + effect_covariance(model, a, s);
+  const MatrixXd ca = model.null_covariance() + model.uncertain(a, s);
   double least = squared(ra, ca);  // b at 0
   for (const double t : probe_strengths(b, 2))
-    least = std::min(least, squared(ra - b.response(t), ca + effect_covariance(model, b, t)));
+    least = std::min(least, squared(ra - b.response(t), ca + model.uncertain(b, t)));
   return std::sqrt(least);
 }
 

@@ -39,8 +39,9 @@ TableModel TableModel::part(const std::vector<Eigen::Index>& keep) const {
   TableModel p = *this;
   p.rows.clear();
   for (const Eigen::Index i : keep) p.rows.push_back(rows[i]);
-  for (auto member : {&TableModel::observed, &TableModel::baseline, &TableModel::family_shift, &TableModel::relative,
-                      &TableModel::scale, &TableModel::logarithmic, &TableModel::unknown_scale})
+  for (auto member :
+       {&TableModel::observed, &TableModel::baseline, &TableModel::family_shift, &TableModel::relative,
+        &TableModel::scale, &TableModel::logarithmic, &TableModel::unknown_scale, &TableModel::known_change})
     p.*member = (this->*member)(keep).eval();
   for (auto member : {&TableModel::noise, &TableModel::seed, &TableModel::emulator, &TableModel::family,
                       &TableModel::discrepancy, &TableModel::shape_correlation})
@@ -95,6 +96,41 @@ TableModel TableModel::in_logarithms(NoiseOver noise_over) const {
       MatrixXd& c = e.covariance[static_cast<std::size_t>(k)];
       c = (over.asDiagonal() * c * over.asDiagonal()).eval();
     }
+  return p;
+}
+
+Eigen::MatrixXd TableModel::uncertain(const EffectResponse& e, double strength) const {
+  const Eigen::VectorXd r = e.response(strength);
+  const Eigen::VectorXd shape = e.shape_error * r,
+                        with_known = interaction * e.shape_error * r.cwiseProduct(known_change);
+  return e.emulator(strength) + shape.asDiagonal() * shape_correlation * shape.asDiagonal() +
+         with_known.asDiagonal() * shape_correlation * with_known.asDiagonal();
+}
+
+TableModel TableModel::with_known(const std::string& name, double strength) const {
+  const EffectResponse& known = *effect(name);
+  const Eigen::VectorXd r = known.response(strength);
+  TableModel p = without({name});
+  p.baseline += r;
+  const Eigen::VectorXd eta_r = known.shape_error * r.cwiseQuotient(scale);
+  p.known_change = (known_change.cwiseAbs2() + eta_r.cwiseAbs2()).cwiseSqrt();
+  Eigen::VectorXd factor = Eigen::VectorXd::Ones(size());
+  for (Eigen::Index i = 0; i < size(); ++i)
+    if (relative[i] > 0) factor[i] = p.baseline[i] / baseline[i];
+  p.scale = scale.cwiseProduct(factor);
+  p.unknown_scale = unknown_scale.cwiseProduct(factor);
+  p.family_shift = family_shift.cwiseProduct(factor);
+  p.family_members = factor.asDiagonal() * family_members;
+  const auto scaled = [&](const Eigen::MatrixXd& c) {
+    return Eigen::MatrixXd(factor.asDiagonal() * c * factor.asDiagonal());
+  };
+  p.emulator = scaled(emulator) + known.emulator(strength);
+  for (auto member : {&TableModel::seed, &TableModel::family, &TableModel::discrepancy})
+    p.*member = scaled(this->*member);
+  for (EffectResponse& e : p.effects) {
+    e.mean = factor.asDiagonal() * e.mean;
+    for (Eigen::MatrixXd& c : e.covariance) c = scaled(c);
+  }
   return p;
 }
 

@@ -8,6 +8,12 @@
 // response may be off by eta of itself, half of that variance common to an observable, half of each condition's own.
 // Two effects have one term more, r the product of their responses over the scale and eta that of their shape errors
 // times `interaction`: together they may do more or less than each by itself.
+//
+// A known effect is no rival but part of the baseline (an end wall the machine has): f + r(s) takes the place of f, all
+// that is relative to f is scaled with it, its emulator's error joins that of the baseline, and what it and a rival do
+// together is uncertain as for any two effects. No shape error of its own: a baseline simulated with it has none
+// either. Library runs of the effect hold the seeds' scatter of the plain baseline too, so that the sum counts that
+// twice, a little too much.
 #pragma once
 
 #include <Eigen/Dense>
@@ -45,7 +51,8 @@ struct TableModel {
   Eigen::VectorXd family_weights;
   Eigen::MatrixXd family_parameters;  // m x p
   Eigen::MatrixXd shape_correlation;
-  double interaction = 0;  // of two effects: interaction eta_a eta_b r_a r_b/scale, a standard deviation
+  double interaction = 0;        // of two effects: interaction eta_a eta_b r_a r_b/scale, a standard deviation
+  Eigen::VectorXd known_change;  // root of the sum of (eta r / scale)^2 over the known effects
   // Shapes a gap nobody named may have, one correlation each: smooth within an observable; a level and trends with its
   // conditions. Alike within an apparatus.
   std::vector<Eigen::MatrixXd> unknown_shapes;
@@ -66,6 +73,10 @@ struct TableModel {
   TableModel in_logarithms(NoiseOver noise_over) const;
   // Only the rows with `keep`.
   TableModel part(const std::vector<Eigen::Index>& keep) const;
+  // Covariance that an effect at this strength brings: its emulator's and shape error, what it does with known effects.
+  Eigen::MatrixXd uncertain(const EffectResponse& effect, double strength) const;
+  // With an effect as part of the baseline; the effect must be among `effects`.
+  TableModel with_known(const std::string& name, double strength) const;
   // Effects not in `names` only.
   TableModel without(const std::vector<std::string>& names) const;
 };

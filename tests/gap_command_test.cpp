@@ -327,6 +327,34 @@ TEST_F(GapCommand, ConfirmPrintsTheCommandsOfEveryCheckTest) {
   EXPECT_EQ(with_effect, 3);
 }
 
+// A known effect is in every run, and no candidate; bad statements of it are refused.
+TEST_F(GapCommand, AKnownEffectIsInEveryRun) {
+  rows_.erase(std::remove_if(rows_.begin(), rows_.end(),
+                             [](const Observation& r) { return r.apparatus != "mixer" && r.role == "check"; }),
+              rows_.end());
+  write(rows_);
+  ASSERT_EQ(gap("confirm t.csv --library library --draws 100 --known shape=0.2 --out answer --root " VIELTO_SOURCE_DIR),
+            0)
+      << err_;
+  std::istringstream lines(out_);
+  int runs = 0;
+  for (std::string line; std::getline(lines, line); ++runs)
+    EXPECT_NE(line.find("-var twistingResistance "), std::string::npos) << line;
+  EXPECT_GE(runs, 6) << out_;
+  ASSERT_EQ(diagnose("--known cohesion=200"), 0) << err_;
+  const json d = json::parse(content(folder_ / "answer/diagnosis.json"));
+  EXPECT_FALSE(d["probabilities"].contains("cohesion"));
+  EXPECT_EQ(d["provenance"]["known"], json({{"cohesion", 200.0}}));
+  EXPECT_NE(out_.find("note: cohesion at strength 200 is part of the baseline"), std::string::npos) << out_;
+  fs::remove_all(folder_ / "answer");
+  expect_refusal("--known glue: is no effect", "--known glue=1");
+  expect_refusal("--known cohesion: states no strength", "--known cohesion");
+  expect_refusal("--known cohesion=much: states no strength", "--known cohesion=much");
+  expect_refusal("--known cohesion: 900 is outside its range of 0 to 300", "--known cohesion=900");
+  expect_refusal("--known cohesion=20: is stated twice", "--known cohesion=10 --known cohesion=20");
+  expect_refusal("--known cohesion=20: is named by --without too", "--known cohesion=20 --without cohesion");
+}
+
 // Replicates are one run: a fourth check test under the conditions of another needs none of its own.
 TEST_F(GapCommand, ConfirmRunsEqualConditionsOnce) {
   rows_.erase(std::remove_if(rows_.begin(), rows_.end(),

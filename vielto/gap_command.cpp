@@ -34,7 +34,7 @@ using json = nlohmann::ordered_json;
 struct GapOptions {
   InputFiles files;
   std::string table, out, candidates, sealed, rigs, root = ".", runs;
-  std::vector<std::string> tables, ignored, only, without, vars;
+  std::vector<std::string> tables, ignored, only, without, known, vars;
   double runs_per_observation = 1;
   std::uint64_t seed = 1;
   int seeds = 1, draws = 0, jobs = 1;
@@ -46,7 +46,23 @@ struct GapOptions {
     o.extrapolate = extrapolate;
     o.runs_per_observation = runs_per_observation;
     o.use_discrepancy = !no_discrepancy;
+    o.known = known_effects();
     return o;
+  }
+  std::map<std::string, double> known_effects() const {
+    std::map<std::string, double> effects;
+    for (const std::string& text : known) {
+      const auto equals = text.find('=');
+      const auto strength = equals == std::string::npos ? std::nullopt : finite_number(text.substr(equals + 1));
+      if (!strength)
+        throw BadInput("--known " + text, 0, "states no strength", "write EFFECT=STRENGTH, such as slice_ends=1");
+      const std::string name = text.substr(0, equals);
+      if (std::find(without.begin(), without.end(), name) != without.end())
+        throw BadInput("--known " + text, 0, "is named by --without too", "a known effect is no candidate anyway");
+      if (!effects.emplace(name, *strength).second)
+        throw BadInput("--known " + text, 0, "is stated twice", "state it once");
+    }
+    return effects;
   }
   std::string candidate_file() const {
     return candidates.empty() ? (fs::path(files.completed().settings).parent_path() / "next_tests.toml").string()
@@ -102,6 +118,7 @@ struct Question {
       text += fmt::format("{} {} {} {:.6g}|", row.apparatus, row.observable, conditions_text(row), row.u);
     text += fmt::format("{}|{}|{}|{}|{}", fmt::join(o.without, ","), fmt::join(o.ignored, ","), o.runs_per_observation,
                         o.no_discrepancy, o.extrapolate);
+    for (const auto& [name, strength] : o.known_effects()) text += fmt::format("|{}={}", name, strength);
     return sha256_of_text(text);
   }
 };
@@ -207,6 +224,8 @@ json provenance_of(const GapOptions& o, const Question& q) {
     p["hashes"][fs::path(q.table.covariance_path).filename().string()] = sha256_of_file(q.table.covariance_path);
   p["seeds"] = {o.seed};
   p["without"] = o.without;
+  p["known"] = json::object();
+  for (const auto& [name, strength] : o.known_effects()) p["known"][name] = strength;
   p["fingerprint"] = q.fingerprint(o);
   p["commands"] = json::array();
   return p;
@@ -244,7 +263,8 @@ void run_confirm(const GapOptions& o) {
     return;
   }
   const Plan plan = plan_confirmation(q.inputs, q.model, d, i, o.rig_file(), o.root,
-                                      o.runs.empty() ? (fs::path(o.out) / "runs").string() : o.runs, o.seeds, o.vars);
+                                      o.runs.empty() ? (fs::path(o.out) / "runs").string() : o.runs, o.seeds, o.vars,
+                                      o.known_effects());
   for (const PlannedRun& run : plan.runs) {
     // seen from the rig's folder, so that the answer speaks of no machine
     std::vector<std::string> words = run.command;
@@ -327,6 +347,8 @@ void add_gap_command(CLI::App& app) {
     common(c);
     c->add_option("--only", o->only, "rows that satisfy this only, such as wall=B (repeatable)");
     c->add_option("--without", o->without, "effects that are no candidates")->delimiter(',');
+    c->add_option("--known", o->known,
+                  "EFFECT=STRENGTH that the apparatus surely has: part of the baseline, no candidate (repeatable)");
     c->add_option("--runs-per-observation", o->runs_per_observation,
                   "how many independent runs an observed value is the mean of; 0: u holds their scatter already")
         ->check(CLI::NonNegativeNumber)
