@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """gap/responses through its command line, on a library whose responses are known by hand, and on those of the repository."""
 import math
+import os
 import pathlib
 import subprocess
 import tempfile
@@ -47,6 +48,12 @@ with tempfile.TemporaryDirectory(prefix="vielto-responses-") as name:
                          ((folder / "none",), "name a response library")):
         refused = responses(*words)
         assert refused.returncode == 2 and fault in refused.stderr and refused.stderr.count("\n") == 1, refused
+    # a reader that closes at once: no traceback
+    end, start = os.pipe()
+    os.close(end)
+    cut = subprocess.run([ROOT / "gap/responses", str(folder)], stdout=start, stderr=subprocess.PIPE, text=True)
+    os.close(start)
+    assert cut.stderr == "", cut.stderr
     picture = folder / "p.svg"
     drawn = responses(folder, "--picture", picture)
     if "needs matplotlib" in drawn.stderr:
