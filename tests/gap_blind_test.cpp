@@ -125,6 +125,37 @@ TEST_F(GapBlind, ShuffledTruthScoresAsChance) {
   EXPECT_NEAR(false_alarm, chance, 3 * std::sqrt(chance * (1 - chance) / cases));
 }
 
+// The closure rests on re-simulation where every strong case that has something to simulate was simulated; a case said
+// to have no gap has nothing. It follows the measured values, not the prediction: here they close nothing.
+TEST_F(GapBlind, ClosuresAreMeasuredWhereCasesWereSimulatedAgain) {
+  ASSERT_EQ(status_, 0) << output_;
+  EXPECT_EQ(score()["closure_basis"], "predicted by the emulator where no re-simulation was made");
+  fs::copy(folder_ / "answers", folder_ / "simulated", fs::copy_options::recursive);
+  bool no_gap_among_strong = false;
+  for (const auto& entry : fs::directory_iterator(folder_ / "simulated")) {
+    const json truth = json::parse(content(folder_ / "blind/truth" / (entry.path().filename().string() + ".json")));
+    json answer = json::parse(content(entry.path() / "diagnosis.json"));
+    const bool strong = truth["kind"] == "known" && truth["level"] == "strong";
+    // one strong case is made one without a gap
+    if (strong && !no_gap_among_strong) answer["verdict"] = "no_gap", no_gap_among_strong = true;
+    if (strong && answer["verdict"] != "no_gap")
+      answer["shrink"] = {{"before", 0.3}, {"recalibrated", 0.2}, {"after", 0.2}, {"placebo", 0.2}};
+    else
+      answer["shrink_predicted"] = json();
+    std::ofstream(entry.path() / "diagnosis.json") << answer;
+  }
+  ASSERT_TRUE(no_gap_among_strong);
+  ASSERT_EQ(run(fmt::format(
+                "cd '{}' && gap-score blind --answers simulated --sealed sealed/isolability.json --out simulated.json",
+                folder_.string())),
+            0)
+      << output_;
+  const json s = score("simulated.json");
+  EXPECT_EQ(s["closure_basis"], "re-simulated");
+  EXPECT_NEAR(s["closure"], 0, 1e-12);
+  fs::remove_all(folder_ / "simulated");
+}
+
 TEST_F(GapBlind, ATamperedTruthIsRefused) {
   ASSERT_EQ(status_, 0) << output_;
   const std::string truth = content(folder_ / "blind/truth/0002.json");
