@@ -39,6 +39,13 @@ class GapCommand : public GapFolder {
   }
 
   void write(const std::vector<Observation>& rows) { vielto::write_observations((folder_ / "t.csv").string(), rows); }
+  // The toy has no rigs: those of the repository lend their scripts. Mixer tests only.
+  void keep_mixer_checks() {
+    rows_.erase(std::remove_if(rows_.begin(), rows_.end(),
+                               [](const Observation& r) { return r.apparatus != "mixer" && r.role == "check"; }),
+                rows_.end());
+    write(rows_);
+  }
   int diagnose(const std::string& options = "") {
     return gap("diagnose t.csv --library library --draws 100 --out answer " + options);
   }
@@ -305,11 +312,7 @@ TEST_F(GapCommand, NextTestRanksByGainPerHour) {
 }
 
 TEST_F(GapCommand, ConfirmPrintsTheCommandsOfEveryCheckTest) {
-  // The toy has no rigs: those of the repository lend their scripts. Mixer tests only.
-  rows_.erase(std::remove_if(rows_.begin(), rows_.end(),
-                             [](const Observation& r) { return r.apparatus != "mixer" && r.role == "check"; }),
-              rows_.end());
-  write(rows_);
+  keep_mixer_checks();
   ASSERT_EQ(gap("confirm t.csv --library library --draws 100 --out answer --root " VIELTO_SOURCE_DIR), 0) << err_;
   EXPECT_FALSE(fs::exists(folder_ / "answer"));
   // Three check tests, four variants.
@@ -329,10 +332,7 @@ TEST_F(GapCommand, ConfirmPrintsTheCommandsOfEveryCheckTest) {
 
 // A known effect is in every run, and no candidate; bad statements of it are refused.
 TEST_F(GapCommand, AKnownEffectIsInEveryRun) {
-  rows_.erase(std::remove_if(rows_.begin(), rows_.end(),
-                             [](const Observation& r) { return r.apparatus != "mixer" && r.role == "check"; }),
-              rows_.end());
-  write(rows_);
+  keep_mixer_checks();
   ASSERT_EQ(gap("confirm t.csv --library library --draws 100 --known shape=0.2 --out answer --root " VIELTO_SOURCE_DIR),
             0)
       << err_;
@@ -357,9 +357,7 @@ TEST_F(GapCommand, AKnownEffectIsInEveryRun) {
 
 // Replicates are one run: a fourth check test under the conditions of another needs none of its own.
 TEST_F(GapCommand, ConfirmRunsEqualConditionsOnce) {
-  rows_.erase(std::remove_if(rows_.begin(), rows_.end(),
-                             [](const Observation& r) { return r.apparatus != "mixer" && r.role == "check"; }),
-              rows_.end());
+  keep_mixer_checks();
   const auto check = std::find_if(rows_.begin(), rows_.end(), [](const Observation& r) { return r.role == "check"; });
   ASSERT_NE(check, rows_.end());
   Observation replicate = *check;
@@ -373,10 +371,7 @@ TEST_F(GapCommand, ConfirmRunsEqualConditionsOnce) {
 
 // A run folder that is there counts only if it was made by the planned command and from the files that are there now.
 TEST_F(GapCommand, ConfirmRefusesARunOfAnotherStrengthOrOfOtherFiles) {
-  rows_.erase(std::remove_if(rows_.begin(), rows_.end(),
-                             [](const Observation& r) { return r.apparatus != "mixer" && r.role == "check"; }),
-              rows_.end());
-  write(rows_);
+  keep_mixer_checks();
   const std::string confirm =
       "confirm t.csv --library library --draws 100 --out answer --runs runs --root " VIELTO_SOURCE_DIR;
   ASSERT_EQ(gap(confirm), 0) << err_;
@@ -415,10 +410,7 @@ TEST_F(GapCommand, ConfirmTakesAnEffectFromTheStatedSetting) {
   state.effects["wall_friction"] = 10;
   std::mt19937_64 random(6);
   rows_ = toy::measured(state, random);
-  rows_.erase(std::remove_if(rows_.begin(), rows_.end(),
-                             [](const Observation& r) { return r.apparatus != "mixer" && r.role == "check"; }),
-              rows_.end());
-  write(rows_);
+  keep_mixer_checks();
   ASSERT_EQ(gap("confirm t.csv --library library --draws 100 --out answer --var wall_frictionAngle=40 "
                 "--root " VIELTO_SOURCE_DIR),
             0)
