@@ -185,7 +185,6 @@ json score(const std::string& folder, const std::string& answers, const std::str
     result[std::string(key) + "_n"] = picked.size();
   };
   // Measured by re-simulation where that was done, else what the emulator predicts.
-  bool measured = true;
   const auto shrink = [](const Scored& c) {
     return c.answer["shrink"].is_null() ? c.answer["shrink_predicted"] : c.answer["shrink"];
   };
@@ -207,14 +206,20 @@ json score(const std::string& folder, const std::string& answers, const std::str
   };
   const Pick strong = pick([&](const Scored& c) { return known(c) && c.strong(); });
   // without a gap there is nothing to simulate again
-  for (const Scored* c : strong) measured = measured && (c->verdict() == "no_gap" || !c->answer["shrink"].is_null());
+  const auto wanted =
+      std::count_if(strong.begin(), strong.end(), [](const Scored* c) { return c->verdict() != "no_gap"; });
+  const auto measured = std::count_if(strong.begin(), strong.end(), [](const Scored* c) {
+    return c->verdict() != "no_gap" && !c->answer["shrink"].is_null();
+  });
   pooled("closure", strong, [&](const Pick& p) {
     const double best =
         closes(p, [](const Scored& c, const json&) { return c.truth["check_true_effect"].get<double>(); });
     return best > 0 ? closes(p, part("after")) / best : 0.0;
   });
   pooled("placebo", strong, [&](const Pick& p) { return closes(p, part("placebo")); });
-  result["closure_basis"] = measured ? "re-simulated" : "predicted by the emulator where no re-simulation was made";
+  result["closure_basis"] = wanted == 0          ? "no case was said to have a gap"
+                            : measured == wanted ? "re-simulated"
+                                                 : "predicted by the emulator where no re-simulation was made";
   pooled("brier", pick([](const Scored&) { return true; }), [](const Pick& p) {
     double sum = 0;
     for (const Scored* c : p) {
