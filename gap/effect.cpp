@@ -126,6 +126,19 @@ std::string VarChange::text(double base, double strength) const {
   return fmt::format("{:.9g}", value);
 }
 
+std::string Effect::changes(const std::string& rig) const {
+  static const std::map<VarRule, const char*> names = {{VarRule::value, "value"},    {VarRule::offset, "offset"},
+                                                       {VarRule::scale, "scale"},    {VarRule::power10, "power10"},
+                                                       {VarRule::divide, "divide"},  {VarRule::word, "word"},
+                                                       {VarRule::switched, "switch"}};
+  std::vector<std::string> texts;
+  for (const VarChange& v : vars)
+    if (v.acts_on(rig))
+      texts.push_back(fmt::format("{} {} {}{}", v.name, names.at(v.rule),
+                                  v.word.empty() ? fmt::format("{:.9g}", v.factor) : v.word, v.whole ? " whole" : ""));
+  return fmt::format("{}", fmt::join(texts, "; "));
+}
+
 bool Transform::acts_on(const std::string& on_apparatus, const std::string& on_observable) const {
   return apparatus == on_apparatus && (observable == "*" || observable == on_observable);
 }

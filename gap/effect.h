@@ -61,6 +61,8 @@ struct Effect {
   std::vector<Transform> transforms;
 
   bool acts_on_rig(const std::string& rig) const;
+  // What it changes in a rig, one line without commas: runs made when it changed something else are of another effect.
+  std::string changes(const std::string& rig) const;
   const Transform* transform_of(const std::string& apparatus, const std::string& observable) const;
 };
 

@@ -20,8 +20,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::set<std::string> kOwnFiles = {"design.csv", "posterior.csv", "members.csv",   "discrepancy.csv",
-                                         "inputs.csv", "sources.csv",   "covariance.csv"};
+const std::set<std::string> kOwnFiles = {"design.csv", "posterior.csv", "members.csv",    "discrepancy.csv",
+                                         "inputs.csv", "sources.csv",   "covariance.csv", "effects.csv"};
 
 void read_design(Library& library, const std::vector<Effect>& effects) {
   const std::string path = (fs::path(library.folder) / "design.csv").string();
@@ -170,6 +170,18 @@ void read_family(Library& library) {
   library.files.push_back(path);
 }
 
+// The effects' runs are those of the effects as they are now.
+void check_effects(const Library& library, const std::vector<Effect>& effects) {
+  const std::string path = (fs::path(library.folder) / "effects.csv").string();
+  if (!fs::exists(path)) return;
+  read_columns(path, {"effect", "rig", "changes"}, [&](int line, const std::vector<std::string_view>& f) {
+    for (const Effect& e : effects)
+      if (const std::string now = e.changes(std::string(f[1])); e.name == f[0] && now != f[2])
+        throw BadInput(path, line, "changes", fmt::format("the library is stale: {} now says '{}'", e.path, now),
+                       "make the effect's runs again and add them with gap/portion, or bring the file back");
+  });
+}
+
 void check_fresh(const Library& library) {
   const std::string path = (fs::path(library.folder) / "inputs.csv").string();
   if (!fs::exists(path)) return;
@@ -192,6 +204,7 @@ Library Library::read(const std::string& folder, const std::vector<Effect>& effe
   library.folder = folder;
   read_design(library, effects);
   check_fresh(library);
+  check_effects(library, effects);
   read_tables(library);
   check_seeds(library);
   read_family(library);

@@ -14,6 +14,9 @@
 // - sources.csv: test,source,torque_Nm (sources.h)
 // - inputs.csv: file,sha256. What the runs were made from, paths from the folder: if one has changed, the library is
 //   stale
+// - effects.csv: effect,rig,changes. What the effects changed in each rig when their runs were made (Effect::changes);
+// if one
+//   changes something else now, the library is stale
 //
 // Errors: BadInput with file and line. At least 6 seeds of the baseline under every condition (but for `bench`, which
 // is not simulated); no run twice (run_hash); strengths inside the effect's prior range; nothing stale.

@@ -94,6 +94,12 @@ const Effect& effect_of(const TomlTable& t, const std::vector<Effect>& effects) 
   return *found;
 }
 
+// As numbers where both are: a plan says 0.1, a study 0.10.
+bool same_setting(const std::string& a, const std::string& b) {
+  const auto x = finite_number(a), y = finite_number(b);
+  return x && y ? std::fabs(*x - *y) <= 1e-8 * std::fabs(*y) : a == b;
+}
+
 void add_rig(LibraryPlan& plan, const TomlTable& t, const std::vector<Effect>& effects, const TomlTable& rigs_file,
              const std::string& root, int seeds, const FamilyFile& family, const std::vector<std::size_t>& members) {
   t.only({"name", "settings", "conditions", "members_at", "effect"});
@@ -145,7 +151,7 @@ void add_rig(LibraryPlan& plan, const TomlTable& t, const std::vector<Effect>& e
   };
   for (int s = 0; s < *std::max_element(seeds_at.begin(), seeds_at.end()); ++s)
     for (std::size_t c = 0; c < conditions.size(); ++c)
-      if (s < seeds_at[c]) add(c, "none", s + 1, {"", "", "none", 0, 0, own, {}});
+      if (s < seeds_at[c]) add(c, "none", s + 1, {"", "", "none", 0, 0, own, {}, ""});
   if (t.has("members_at"))
     for (std::size_t m = 0; m < members.size(); ++m) {
       const std::size_t at = members[m];
@@ -162,12 +168,20 @@ void add_rig(LibraryPlan& plan, const TomlTable& t, const std::vector<Effect>& e
     const Effect& effect = effect_of(e, effects);
     if (!effect.acts_on_rig(rig.name)) e.refuse("name", fmt::format("does nothing in {}", rig.name), "leave it out");
     for (const double strength : numbers_of(e, "strengths")) {
-      LibraryRun run{"", "", effect.name, strength, 0, own, rig.settings(effect, strength, [&] {
-                       std::map<std::string, double> base = rig.base;
-                       for (const auto& [name, value] : common)
-                         if (const auto number = finite_number(value)) base[name] = *number;
-                       return base;
-                     }())};
+      LibraryRun run{"",
+                     "",
+                     effect.name,
+                     strength,
+                     0,
+                     own,
+                     rig.settings(effect, strength,
+                                  [&] {
+                                    std::map<std::string, double> base = rig.base;
+                                    for (const auto& [name, value] : common)
+                                      if (const auto number = finite_number(value)) base[name] = *number;
+                                    return base;
+                                  }()),
+                     effect.changes(rig.name)};
       if (run.settings.empty() || strength < effect.prior_low || strength > effect.prior_high)
         e.refuse("strengths", fmt::format("{} is 0 or outside the prior range", strength),
                  fmt::format("write strengths from {} to {}", effect.prior_low, effect.prior_high));
@@ -286,6 +300,7 @@ Collected collect_library(const LibraryPlan& plan, const std::string& results, c
   for (const std::string& name : plan.parameter_names) design += "," + name;
   design += "\n";
   std::string sources = kSourcesHeader;
+  std::set<std::string> changes;
   std::vector<Observation> rows;
   Collected collected;
   for (const LibraryRun& run : plan.runs) {
@@ -299,10 +314,16 @@ Collected collect_library(const LibraryPlan& plan, const std::string& results, c
     if (const std::string name = changed_file(made, hash_of); !name.empty())
       throw BadInput(description, 0, fmt::format("the run was made from another {}", name),
                      "run it again, or bring the file back");
+    for (const auto& [name, value] : run.settings)
+      if (const std::string had = made["parameters"].value(name, ""); !same_setting(had, value))
+        throw BadInput(description, 0,
+                       fmt::format("the run was made with {} {}, the plan now has {}", name, had, value),
+                       "run it again, or bring the plan and the effect's file back");
     made["parameters"].erase("run");
     design +=
         fmt::format("{},{},{},{},{}{}\n", run.name, run.effect, number_text(run.strength), run.seed,
                     sha256_of_text(made["hashes"].dump() + made["parameters"].dump()), parameters_text(run.parameters));
+    if (!run.changes.empty()) changes.insert(fmt::format("{},{},{}", run.effect, run.rig, run.changes));
     for (Observation row : read_observations(table)) {
       row.test = run.name;
       rows.push_back(row);
@@ -333,6 +354,9 @@ Collected collect_library(const LibraryPlan& plan, const std::string& results, c
   std::string list = "file,sha256\n";
   for (const auto& [file, hash] : inputs) list += file + "," + hash + "\n";
   write_whole_file(path("inputs.csv"), list);
+  list = "effect,rig,changes\n";
+  for (const std::string& line : changes) list += line + "\n";
+  write_whole_file(path("effects.csv"), list);
   return collected;
 }
 

@@ -42,6 +42,7 @@ struct LibraryRun {
   int seed = 0;
   std::map<std::string, double> parameters;     // of the family, all of them
   std::map<std::string, std::string> settings;  // -var, without seed and run
+  std::string changes;                          // of the effect in the rig (Effect::changes)
 };
 
 struct LibraryPlan {
@@ -65,9 +66,9 @@ struct Collected {
   std::vector<std::string> missing;  // runs of the plan without a result
 };
 
-// Writes design.csv, observations.csv, sources.csv (sources.h), bench.csv, posterior.csv and inputs.csv to `folder`
-// from the campaign's folder `results` (runs/NAME/run.json, post/NAME.csv). Errors: BadInput also for a run that was
-// made from other files than those that are there now.
+// Writes design.csv, observations.csv, sources.csv (sources.h), bench.csv, posterior.csv, inputs.csv and effects.csv to
+// `folder` from the campaign's folder `results` (runs/NAME/run.json, post/NAME.csv). Errors: BadInput also for a run
+// that was made from other files than those that are there now, or with other settings than the plan's.
 Collected collect_library(const LibraryPlan& plan, const std::string& results, const std::string& folder);
 
 }  // namespace vielto::gap

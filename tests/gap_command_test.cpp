@@ -229,6 +229,18 @@ TEST_F(GapCommand, RefusesAStaleLibrary) {
   expect_refusal("inputs.csv, line 2, column sha256: the library is stale: '../in.rig' has changed");
 }
 
+// Runs that were made when the effect changed something else do not stand for it.
+TEST_F(GapCommand, RefusesALibraryOfAnotherEffect) {
+  const auto with_changes = [&](const char* changes) {
+    std::ofstream(folder_ / "library/effects.csv") << "effect,rig,changes\nwall_friction,mixer," << changes << "\n";
+  };
+  with_changes("wall_frictionAngle offset 2");
+  EXPECT_EQ(diagnose(), 0) << err_;
+  fs::remove_all(folder_ / "answer");
+  with_changes("wall_frictionAngle offset 1");
+  expect_refusal("effects.csv, line 2, column changes: the library is stale:");
+}
+
 TEST_F(GapCommand, RefusesEffectsAndSettingsWithOneClearLine) {
   const fs::path effect = folder_ / "effects/cohesion.toml";
   const std::string good = content(effect);

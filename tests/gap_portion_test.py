@@ -109,6 +109,27 @@ class Portion(unittest.TestCase):
         self.assertNotIn("wall_friction14", text)
         self.assertIn("wall_friction7", text)
 
+    def test_runs_of_an_effect_that_was_another_are_taken_out(self):
+        self.finish("first", self.runs)
+        self.collect("first")
+        self.assertIn("wall_friction,drum,wall_frictionAngle offset 2", self.library()["effects.csv"])
+        effect = self.folder / "gap/effects/wall_friction.toml"
+        effect.write_text(effect.read_text().replace("factor = 2.0", "factor = 3.0"))
+        # the old runs are not taken for runs of the new effect ...
+        done = self.vielto("gap", "collect", "gap/library/plan.toml", "first", "--out", "other")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("made with wall_frictionAngle", done.stderr)
+        # ... a new run takes the place of all of them
+        self.assertEqual(self.vielto("gap", "plan", "gap/library/plan.toml", "--out", "study.csv").returncode, 0)
+        with open(self.folder / "study.csv") as file:
+            self.finish("new", [run for run in csv.DictReader(file) if "wall_friction7" in run["run"]], shift=0.1)
+        done = self.portion("new")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("2 runs added, 14 of 16", done.stdout)
+        self.assertIn("4 of wall_friction taken out", done.stdout)
+        self.assertIn("wall_friction,drum,wall_frictionAngle offset 3", self.library()["effects.csv"])
+        self.assertNotIn("wall_friction14", "\n".join(self.library()["design.csv"] + self.library()["observations.csv"]))
+
     def test_a_changed_file_needs_runs_that_show_that_it_makes_no_difference(self):
         self.finish("first", self.runs[:12])
         self.collect("first")
