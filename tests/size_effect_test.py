@@ -30,6 +30,13 @@ with tempfile.TemporaryDirectory(prefix="vielto-size-") as name:
     assert "line at the real size, 1 mm, extrapolated: 22.5" in told.stdout, told.stdout
     assert "line at the coarse size, 4 mm: 30" in told.stdout, told.stdout
     assert "4 mm: 30 ± 0.5 (2 runs)" in told.stdout, told.stdout
+    picture = pathlib.Path(name) / "p.svg"
+    drawn = effect(table, "--real", "0.001", "--coarse", "0.004", "--picture", picture)
+    if "needs matplotlib" in drawn.stderr:
+        assert drawn.returncode == 2 and not picture.exists()
+    else:
+        assert drawn.stdout == told.stdout and "<svg" in picture.read_text(), drawn.stderr
+    assert not list(pathlib.Path(name).glob("*.partial*"))
     # runs of another kind are left out by name
     table.write_text("run,grainDiameter,angle_deg\n" + "".join(rows) + "other,0.004,90\n")
     assert effect(table, "--real", "0.001", "--coarse", "0.004", "--runs", "r").stdout == told.stdout
