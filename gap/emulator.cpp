@@ -335,7 +335,7 @@ TableModel Emulator::model(const ReducedTable& table, const EmulatorOptions& opt
   model.observed.resize(n);
   model.noise = MatrixXd(table.covariance);
   for (auto member : {&TableModel::baseline, &TableModel::family_shift, &TableModel::relative, &TableModel::scale,
-                      &TableModel::logarithmic, &TableModel::unknown_scale, &TableModel::known_change})
+                      &TableModel::logarithmic, &TableModel::unknown_scale})
     model.*member = VectorXd::Zero(n);
   for (auto member : {&TableModel::seed, &TableModel::emulator, &TableModel::family, &TableModel::discrepancy,
                       &TableModel::shape_correlation})

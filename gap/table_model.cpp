@@ -100,11 +100,13 @@ TableModel TableModel::in_logarithms(NoiseOver noise_over) const {
 }
 
 Eigen::MatrixXd TableModel::uncertain(const EffectResponse& e, double strength) const {
-  const Eigen::VectorXd r = e.response(strength);
-  const Eigen::VectorXd shape = e.shape_error * r,
-                        with_known = interaction * e.shape_error * r.cwiseProduct(known_change);
-  return e.emulator(strength) + shape.asDiagonal() * shape_correlation * shape.asDiagonal() +
-         with_known.asDiagonal() * shape_correlation * with_known.asDiagonal();
+  const Eigen::VectorXd r = e.shape_error * e.response(strength);
+  Eigen::MatrixXd c = e.emulator(strength) + r.asDiagonal() * shape_correlation * r.asDiagonal();
+  if (known_change.size() > 0) {
+    const Eigen::VectorXd with_known = interaction * r.cwiseProduct(known_change);
+    c += with_known.asDiagonal() * shape_correlation * with_known.asDiagonal();
+  }
+  return c;
 }
 
 TableModel TableModel::with_known(const std::string& name, double strength) const {
@@ -113,7 +115,8 @@ TableModel TableModel::with_known(const std::string& name, double strength) cons
   TableModel p = without({name});
   p.baseline += r;
   const Eigen::VectorXd eta_r = known.shape_error * r.cwiseQuotient(scale);
-  p.known_change = (known_change.cwiseAbs2() + eta_r.cwiseAbs2()).cwiseSqrt();
+  p.known_change = eta_r.cwiseAbs();
+  if (known_change.size() > 0) p.known_change = (known_change.cwiseAbs2() + eta_r.cwiseAbs2()).cwiseSqrt();
   Eigen::VectorXd factor = Eigen::VectorXd::Ones(size());
   for (Eigen::Index i = 0; i < size(); ++i)
     if (relative[i] > 0) factor[i] = p.baseline[i] / baseline[i];

@@ -52,7 +52,7 @@ struct TableModel {
   Eigen::MatrixXd family_parameters;  // m x p
   Eigen::MatrixXd shape_correlation;
   double interaction = 0;        // of two effects: interaction eta_a eta_b r_a r_b/scale, a standard deviation
-  Eigen::VectorXd known_change;  // root of the sum of (eta r / scale)^2 over the known effects
+  Eigen::VectorXd known_change;  // root of the sum of (eta r / scale)^2 over the known effects; empty: there is none
   // Shapes a gap nobody named may have, one correlation each: smooth within an observable; a level and trends with its
   // conditions. Alike within an apparatus.
   std::vector<Eigen::MatrixXd> unknown_shapes;

@@ -125,7 +125,7 @@ TEST_F(GapDiagnosis, AKnownEffectIsPartOfTheBaseline) {
   const Eigen::MatrixXd both = covariance_at(plain, pair, {200, 0.3}) - covariance_at(plain, {pair[0]}, {200}) -
                                covariance_at(plain, {pair[1]}, {0.3}) + plain.null_covariance();
   TableModel alone = with;
-  alone.known_change.setZero();
+  alone.known_change.resize(0);
   const Eigen::MatrixXd known =
       with.uncertain(*with.effect("shape"), 0.3) - alone.uncertain(*with.effect("shape"), 0.3);
   for (Eigen::Index i = 0; i < with.size(); ++i) {
