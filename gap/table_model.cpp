@@ -39,10 +39,10 @@ TableModel TableModel::part(const std::vector<Eigen::Index>& keep) const {
   TableModel p = *this;
   p.rows.clear();
   for (const Eigen::Index i : keep) p.rows.push_back(rows[i]);
-  for (auto member :
-       {&TableModel::observed, &TableModel::baseline, &TableModel::family_shift, &TableModel::relative,
-        &TableModel::scale, &TableModel::logarithmic, &TableModel::unknown_scale, &TableModel::known_change})
+  for (auto member : {&TableModel::observed, &TableModel::baseline, &TableModel::family_shift, &TableModel::relative,
+                      &TableModel::scale, &TableModel::logarithmic, &TableModel::unknown_scale})
     p.*member = (this->*member)(keep).eval();
+  if (known_change.size() > 0) p.known_change = known_change(keep).eval();
   for (auto member : {&TableModel::noise, &TableModel::seed, &TableModel::emulator, &TableModel::family,
                       &TableModel::discrepancy, &TableModel::shape_correlation})
     p.*member = (this->*member)(keep, keep).eval();
