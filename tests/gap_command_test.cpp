@@ -365,6 +365,12 @@ TEST_F(GapCommand, AKnownEffectIsInEveryRun) {
   expect_refusal("--known cohesion: 900 is outside its range of 0 to 300", "--known cohesion=900");
   expect_refusal("--known cohesion=20: is stated twice", "--known cohesion=10 --known cohesion=20");
   expect_refusal("--known cohesion=20: is named by --without too", "--known cohesion=20 --without cohesion");
+  expect_refusal("--known soft_grain: the library has no runs with it", "--known soft_grain=0.5");
+  // a switch is there wholly or not
+  replace_in(folder_ / "effects/shape.toml", "rule = \"offset\"\nfactor = 1.0", "rule = \"switch\"\nword = \"0.5\"");
+  EXPECT_EQ(gap("confirm t.csv --library library --draws 100 --known shape=0.2 --out answer --root " VIELTO_SOURCE_DIR),
+            2);
+  expect_one_line("--known shape: is a switch");
 }
 
 // Replicates are one run: a fourth check test under the conditions of another needs none of its own.
