@@ -238,6 +238,16 @@ TEST(MixerClearance, IsTheTipsAndTheCornersStickOutBeyondIt) {
   EXPECT_NEAR(m.number("meshClearance"), R * std::cos(kPi / 96) - corner, 1e-9);  // six digits are written
 }
 
+// The paddle's edge of 50 mm lies along the axis, turned by 10 deg; outer stems are (drum length - 21 pitches)/2 from the walls.
+TEST(MixerClearance, ToTheEndWallsIsThatOfTheOuterPaddles) {
+  const double half = 0.025 * std::cos(10 * kPi / 180) + 0.001 * std::sin(10 * kPi / 180);
+  for (const char* pitch : {"0.033", "0.031"}) {
+    const Mixer m = mixer({{"slicePaddles", "0"}, {"paddlePitch", pitch}});
+    EXPECT_NEAR(m.number("endGap"), (kLength - 21 * std::stod(pitch)) / 2 - half, 1e-7);  // six digits are written
+  }
+  EXPECT_GT(mixer().number("endGap"), kLength);  // a slice has no end walls
+}
+
 TEST(MixerClearance, EatenUpByTheChordsIsRefusedWithTheSmallestCountThatDoes) {
   const std::string twelve = refusal({{"drumSegments", "12"}});
   EXPECT_NE(twelve.find("drumSegments"), std::string::npos) << twelve;

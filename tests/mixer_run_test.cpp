@@ -179,6 +179,22 @@ TEST(MixerIdling, RecordsTheModelsMeanAndNoise) {
   EXPECT_EQ(mixer.header("idle", "fill"), "0");
 }
 
+// Coarse grain is wedged beside outer paddles that leave it less than two diameters: said before the run is paid for.
+TEST(MixerWholeDrum, WarnsOfLessThanTwoGrainsBesideItsOuterPaddles) {
+  Mixer mixer;
+  const std::string brief = "-var fill 0 -var turns 3 -var grainDiameter 0.012 ";
+  const auto text = [&](const std::string& name, const std::string& options) {
+    const Outcome outcome = mixer.mixer(name, brief + options);
+    EXPECT_EQ(outcome.status, 0) << outcome.text;
+    return outcome.text;
+  };
+  const std::string near = text("near", "-var slicePaddles 0 -var paddlePitch 0.033");
+  EXPECT_NE(near.find("Warning: the outer paddles leave 0.93"), std::string::npos) << near;  // 11.206 mm over 12 mm
+  EXPECT_NE(near.find("paddlePitch"), std::string::npos) << near;
+  for (const std::string& quiet : {text("far", "-var slicePaddles 0 -var paddlePitch 0.031"), text("slice", "-var slicePaddles 4")})
+    EXPECT_EQ(quiet.find("Warning: the outer paddles"), std::string::npos) << quiet;
+}
+
 // End walls hold the grain: all stay between them for some hundred steps, and the ends push along the axis.
 TEST(MixerWholeDrum, KeepsEveryGrainBetweenItsEndWalls) {
   Mixer mixer;

@@ -10,6 +10,7 @@ namespace vielto {
 namespace {
 
 constexpr int kMostSegments = 360;
+constexpr double kNoEndWall = 1000;  // m
 
 struct Mixer {
   double drum_length, drum_radius, drum_top;
@@ -144,8 +145,18 @@ double distance_from_axis(const Triangle& t) {
   return nearest;
 }
 
-// Least distance between the drum's mesh and the body the rotor sweeps: every angle of the rotor passes every chord.
-double true_clearance(const Mixer& m, const Triangles& walls, const Triangles& blades, double tip_radius, const GeometryInput& input) {
+// Least distance along the axis between the outer paddles and the end walls; infinite in a slice, which has none.
+double end_gap(const Mixer& m, const Triangles& blades, const GeometryInput& input) {
+  if (m.periodic) return INFINITY;
+  const Measure extent = measure(blades);
+  const double gap = std::min(extent.low.x(), m.length - extent.high.x());
+  if (gap <= 0)
+    input.refuse("paddlePitch", fmt::format("the outer paddles pierce the end walls by {:.6f} m", -gap), "state a smaller paddlePitch");
+  return gap;
+}
+
+// Least distance between the drum's round wall and the body the rotor sweeps: every angle of the rotor passes every chord.
+double true_clearance(const Mixer& m, const Triangles& walls, double tip_radius, const GeometryInput& input) {
   double gap = INFINITY;
   for (const Triangle& t : walls) gap = std::min(gap, distance_from_axis(t) - tip_radius);
   if (gap <= 0) {
@@ -157,14 +168,6 @@ double true_clearance(const Mixer& m, const Triangles& walls, const Triangles& b
                    "state a larger clearance");
     input.refuse("drumSegments", fmt::format("the chords eat up the clearance, the rotor would cut the drum by {:.6f} m", -gap),
                  fmt::format("state {} drumSegments or more", enough));
-  }
-  if (!m.periodic) {
-    const Measure extent = measure(blades);
-    const double end_gap = std::min(extent.low.x(), m.length - extent.high.x());
-    if (end_gap <= 0)
-      input.refuse("paddlePitch", fmt::format("the outer paddles pierce the end walls by {:.6f} m", -end_gap),
-                   "state a smaller paddlePitch");
-    gap = std::min(gap, end_gap);
   }
   return gap;
 }
@@ -185,8 +188,10 @@ RigGeometry mixer_geometry(GeometryInput& input) {
 
   Surface blades = joined(rotor.stems);
   append(blades, joined(rotor.paddles));
-  const double tip_radius = largest_radius(triangulate(blades));
-  const double gap = true_clearance(m, triangulate(drum.walls), triangulate(blades), tip_radius, input);
+  const Triangles blade_faces = triangulate(blades);
+  const double tip_radius = largest_radius(blade_faces);
+  const double ends = end_gap(m, blade_faces, input);
+  const double gap = std::min(true_clearance(m, triangulate(drum.walls), tip_radius, input), ends);
 
   RigGeometry g;
   const auto in_the_box = [&m](const Surface& s) { return triangulate(m.periodic ? wrap(s, m.length) : s); };
@@ -208,6 +213,8 @@ RigGeometry mixer_geometry(GeometryInput& input) {
                {"drumRadius", fmt::format("{:.12g}", m.drum_radius)},
                {"drumTop", fmt::format("{:.12g}", m.drum_top)},
                {"meshClearance", fmt::format("{:.6g}", gap)},
+               // a slice has no end walls: farther than any
+               {"endGap", fmt::format("{:.6g}", std::min(ends, kNoEndWall))},
                {"paddleMeshes", fmt::format("{}", m.periodic ? m.paddles : 1)},
                {"paddleAngles", fmt::format("\"{}\"", fmt::join(rotor.angles, " "))},
                {"meshedDrumVolume", fmt::format("{:.9g}", volume)}};
