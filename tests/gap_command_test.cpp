@@ -267,6 +267,65 @@ TEST_F(GapCommand, RefusesUnknownNamesOnTheCommandLine) {
   expect_refusal("has no row left under --only", "--only wall=B");
 }
 
+// At conditions no run was made for. The toy's power is 30 n^1.1 l/0.15 sqrt(friction/25) (rolling/0.1)^0.1.
+TEST_F(GapCommand, PredictsWhatTheCalibratedSimulationSaysAndHowSureItIs) {
+  ASSERT_EQ(gap("predict --library library --speed 1.0,0.6 --fill 0.2 --out p.csv"), 0) << err_;
+  std::vector<double> logs;
+  std::istringstream posterior(content(folder_ / "library/posterior.csv"));
+  std::string line;
+  std::getline(posterior, line);
+  while (std::getline(posterior, line)) {
+    double weight, friction, rolling;
+    ASSERT_EQ(std::sscanf(line.c_str(), "%lf,%lf,%lf", &weight, &friction, &rolling), 3);
+    logs.push_back(0.5 * std::log(friction / 25) + 0.1 * std::log(rolling / 0.1));
+  }
+  double mean = 0, variance = 0;
+  for (const double x : logs) mean += x / static_cast<double>(logs.size());
+  for (const double x : logs) variance += (x - mean) * (x - mean) / static_cast<double>(logs.size());
+
+  std::istringstream table(content(folder_ / "p.csv"));
+  std::getline(table, line);
+  EXPECT_EQ(line,
+            "apparatus,observable,unit,speed,fill,moisture,normal_stress,shear_velocity,tilt,card,value,u,low95,high95,"
+            "u_emulator,u_calibration,u_contact_law");
+  for (const double speed : {1.0, 0.6}) {
+    ASSERT_TRUE(std::getline(table, line));
+    double n, l, card, value, u, low, high, emulator, calibration, law;
+    ASSERT_EQ(std::sscanf(line.c_str(), "mixer,power,W,%lf,%lf,,,,,%lf,%lf,%lf,%lf,%lf,%lf,%lf,%lf", &n, &l, &card,
+                          &value, &u, &low, &high, &emulator, &calibration, &law),
+              10)
+        << line;
+    EXPECT_EQ(n, speed);
+    const double truth = 30 * std::pow(speed, 1.1) * 0.2 / 0.15;
+    EXPECT_LT(emulator / truth, 0.02);  // 72 runs of 2 % stand behind the baseline
+    EXPECT_NEAR(card, truth, 3 * emulator);
+    EXPECT_NEAR(std::log(value / card), mean, 3 * calibration / value);
+    // the family's scatter, and the emulator's error of it: six members at 2 % noise are known to about 1 %
+    EXPECT_GT(calibration / value, 0.7 * std::sqrt(variance));
+    EXPECT_LT(calibration / value, std::hypot(1.3 * std::sqrt(variance), 0.01));
+    EXPECT_NEAR(law / value, 0.03, 1e-4);  // write_discrepancy
+    EXPECT_NEAR(u, std::sqrt(emulator * emulator + calibration * calibration + law * law), 1e-3 * u);
+    EXPECT_NEAR(std::log(high / value), 1.96 * u / value, 1e-3);
+    EXPECT_NEAR(std::log(value / low), 1.96 * u / value, 1e-3);
+  }
+  EXPECT_FALSE(std::getline(table, line));
+  EXPECT_NE(out_.find("speed 1, fill 0.2: "), std::string::npos) << out_;
+
+  ASSERT_EQ(gap("predict --library library --speed 3 --fill 0.2 --extrapolate"), 0) << err_;
+  EXPECT_NE(out_.find("OUTSIDE"), std::string::npos) << out_;
+  const std::vector<std::pair<std::string, std::string>> refused = {
+      {"--speed 3 --fill 0.2 --out q.csv", "speed: 3 is outside the library's"},
+      {"--fill 0.2 --out q.csv", "speed: is empty, but the library depends on it"},
+      {"--observable angle --speed 1 --fill 0.2 --out q.csv", "is none of apparatus 'mixer'"},
+      {"--apparatus drum --observable angle --tilt 0 --out q.csv", "drum"},
+      {"--speed 1 --fill 0.2 --known nonsense=1 --out q.csv", "nonsense"}};
+  for (const auto& [options, part] : refused) {
+    EXPECT_EQ(gap("predict --library library " + options), 2) << options << out_;
+    expect_one_line(part);
+    EXPECT_FALSE(fs::exists(folder_ / "q.csv"));
+  }
+}
+
 TEST_F(GapCommand, IsolabilityIsSealedAndItsThresholdIsTaken) {
   ASSERT_EQ(gap("isolability t.csv --library library --draws 100 --out sealed"), 0) << err_;
   const json i = json::parse(content(folder_ / "sealed/isolability.json"));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// vielto gap {isolability, diagnose, next, confirm, discrepancy, plan, collect}: where the simulation departs from a
-// measurement, why, how far.
+// vielto gap {isolability, diagnose, next, confirm, predict, discrepancy, plan, collect}: where the simulation departs
+// from a measurement, why, how far.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -22,6 +22,7 @@
 #include "next_question.h"
 #include "page.h"
 #include "sha256.h"
+#include "simulated.h"
 #include "sources.h"
 
 namespace vielto {
@@ -34,6 +35,8 @@ using json = nlohmann::ordered_json;
 struct GapOptions {
   InputFiles files;
   std::string table, out, candidates, sealed, rigs, root = ".", runs;
+  std::string apparatus = "mixer", observable = "power";
+  std::map<std::string, std::vector<double>> conditions;
   std::vector<std::string> tables, ignored, only, without, known, vars;
   double runs_per_observation = 1;
   std::uint64_t seed = 1;
@@ -296,6 +299,20 @@ void run_next(const GapOptions& o) {
   for (const std::string& note : d.notes) fmt::print("note: {}\n", note);
 }
 
+void run_predict(const GapOptions& o) {
+  const Inputs inputs(o.files);
+  const auto [values, outside] =
+      simulated_values(inputs, combinations(o.apparatus, o.observable, o.conditions), o.emulator());
+  if (!o.out.empty()) write_whole_file(o.out, simulated_csv(values));
+  fmt::print("{} of {} [{}], mean over seeds; k = 1, from {}\n", o.observable, o.apparatus, values[0].row.unit,
+             fmt::join(kSimulatedParts, ", "));
+  for (const SimulatedValue& v : values)
+    fmt::print("{}{:.4g} ± {:.2g} (95 %: {:.4g} to {:.4g}); ± {:.2g}, {:.2g}, {:.2g}; on the card {:.4g}\n",
+               conditions_text(v.row).empty() ? "" : conditions_text(v.row) + ": ", v.row.value, v.row.u, v.low95,
+               v.high95, v.parts[0], v.parts[1], v.parts[2], v.card);
+  for (const std::string& note : outside) fmt::print("OUTSIDE the library, {}\n", note);
+}
+
 void run_discrepancy(const GapOptions& o) {
   const Inputs inputs(o.files);
   std::map<std::pair<std::string, std::string>, std::vector<LawDifference>> laws;
@@ -399,6 +416,24 @@ void add_gap_command(CLI::App& app) {
   question(next_command);
   answer(next_command);
   next_command->callback([o] { run_next(*o); });
+
+  CLI::App* predict_command = gap->add_subcommand(
+      "predict",
+      "what the calibrated simulation says under these conditions, without a run, and how sure it is\n"
+      "Every combination of the conditions. Example: vielto gap predict --library gap/library --speed 0.5,1 --fill "
+      "0.2");
+  common(predict_command);
+  predict_command->add_option("--apparatus", o->apparatus, "mixer, shearbox, repose, drum")->capture_default_str();
+  predict_command->add_option("--observable", o->observable, "of doc/formats.md")->capture_default_str();
+  for (const NamedCondition& c : kConditions) {
+    std::string option = std::string("--") + c.name;
+    std::replace(option.begin(), option.end(), '_', '-');
+    predict_command->add_option(option, o->conditions[c.name], "values, by commas")->delimiter(',');
+  }
+  predict_command->add_option("--known", o->known, "EFFECT=STRENGTH that the apparatus surely has (repeatable)");
+  predict_command->add_flag("--no-discrepancy", o->no_discrepancy, "leave the law discrepancy out");
+  predict_command->add_option("--out", o->out, "table to write (CSV)");
+  predict_command->callback([o] { run_predict(*o); });
 
   CLI::App* discrepancy_command = gap->add_subcommand(
       "discrepancy", "law discrepancy from development laws: one observation table a law, runs without an effect");
