@@ -5,12 +5,15 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <random>
 #include <sstream>
 
+#include "power_signal.h"
 #include "score.h"
 
 namespace {
@@ -35,13 +38,44 @@ TEST(GapScore, WilsonByHand) {
   EXPECT_EQ(vielto::gap::wilson(0, 0).high95, 1);
 }
 
+// Of n samples of an AR(1): 1/n without correlation, (1 + rho)/2 for two, 1 for a constant.
+TEST(PowerSignal, VarianceOfTheMeanOfCorrelatedSamples) {
+  using vielto::gap::variance_of_mean;
+  EXPECT_NEAR(variance_of_mean(50, 0), 0.02, 1e-15);
+  EXPECT_NEAR(variance_of_mean(2, 0.3), 0.65, 1e-15);
+  EXPECT_NEAR(variance_of_mean(20, 1), 1, 1e-12);
+}
+
+// 3000 draws know a standard deviation to 1.3 % and a mean to u/55.
+TEST(PowerSignal, ErrorOfTheMeanHasTheStatedUncertaintyWhateverItIsMadeOf) {
+  for (const double drift : {0.0, 0.5, 1.0}) {
+    std::mt19937_64 random(3);
+    const vielto::gap::PowerSignal signal{10, 60, 2, drift, 0.2, 0.1};
+    double sum = 0, square = 0;
+    for (int i = 0; i < 3000; ++i) {
+      const double e = vielto::gap::mean_error(signal, 38, 1.5, 1.1, random);  // 90 whole turns: no ripple is left
+      sum += e;
+      square += e * e;
+    }
+    EXPECT_NEAR(sum / 3000, 0, 4 * 1.1 / 55) << drift;
+    EXPECT_NEAR(std::sqrt(square / 3000), 1.1, 4 * 0.013 * 1.1) << drift;
+  }
+}
+
+TEST(PowerSignal, ADisplayWithCoarseStepsIsOffByTheSameInEverySample) {
+  std::mt19937_64 random(1);
+  EXPECT_NEAR(vielto::gap::mean_error({10, 60, 2, 0.5, 0, 1}, 10.3, 1, 1e-6, random), -0.3, 1e-12);
+}
+
 class GapBlind : public testing::Test {
  protected:
   static void SetUpTestSuite() {
     folder_ = fs::temp_directory_path() / fmt::format("gap_blind_{}", getpid());
     std::ofstream(folder_.string() + ".toml") << "no_effect_draws = 3\nweak = 2.0\nmiddle = 4.0\nstrong = "
                                                  "8.0\ntruths_per_effect = 1\ndraws = 1\nremoved = 5\n"
-                                                 "sham = 2\npairs = 2\nfrom_prior = 6\nreachable = 0.7\n";
+                                                 "sham = 2\npairs = 2\nfrom_prior = 6\nreachable = 0.7\n"
+                                                 "[power_signal]\nrate = 10\nduration = 60\ncorrelation = 2\n"
+                                                 "drift = 0.5\nripple = 0.2\nstep = 0.1\n";
     // paths as a person gives them, from where they stand
     const std::string name = folder_.filename().string();
     status_ = run(fmt::format("cd '{}' && '{}/tests/gap_toy_blind.sh' {} 4 {}.toml 200", folder_.parent_path().string(),
@@ -97,6 +131,20 @@ TEST_F(GapBlind, TheAnswerIsTheSameWithAndWithoutTruthsInReach) {
       0)
       << output_;
   EXPECT_EQ(content(folder_ / "answers/0001/diagnosis.json"), content(folder_ / "apart/diagnosis.json"));
+}
+
+TEST_F(GapBlind, RefusesAPlanOfAnImpossibleTransmitterWithOneClearLine) {
+  ASSERT_EQ(status_, 0) << output_;
+  std::string plan = content(folder_.string() + ".toml");
+  plan.replace(plan.find("correlation = 2"), 15, "correlation = -2");
+  std::ofstream(folder_ / "bad.toml") << plan;
+  EXPECT_EQ(run(fmt::format("cd '{}' && gap-withhold --library gap/library --truth gap/library --tests tests.csv "
+                            "--sealed sealed/isolability.json --plan bad.toml --out never",
+                            folder_.string())),
+            2);
+  EXPECT_NE(output_.find("bad.toml, column correlation: "), std::string::npos) << output_;
+  EXPECT_EQ(std::count(output_.begin(), output_.end(), '\n'), 1) << output_;
+  EXPECT_FALSE(fs::exists(folder_ / "never"));
 }
 
 // A right answer at random: one of about a dozen verdicts. With the truths permuted, names fit by chance only; a truth

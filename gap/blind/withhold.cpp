@@ -7,10 +7,12 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <random>
 
 #include "bad_input.h"
 #include "csv.h"
+#include "power_signal.h"
 #include "regions.h"
 #include "sha256.h"
 
@@ -26,12 +28,13 @@ struct Plan {
   int no_effect_draws, truths_per_effect, draws, removed, sham, pairs, from_prior;
   double reachable;
   std::vector<std::pair<std::string, double>> levels;
+  std::optional<PowerSignal> signal;  // without it errors of powers are Gaussian draws too
 };
 
 Plan read_plan(const std::string& path) {
   const TomlTable t = TomlTable::read(path);
   t.only({"no_effect_draws", "weak", "middle", "strong", "truths_per_effect", "draws", "removed", "sham", "pairs",
-          "from_prior", "reachable"});
+          "from_prior", "reachable", "power_signal"});
   const auto count = [&](const char* key) { return static_cast<int>(t.number(key, 0, 1e5)); };
   Plan p{count("no_effect_draws"),
          count("truths_per_effect"),
@@ -41,8 +44,16 @@ Plan read_plan(const std::string& path) {
          count("pairs"),
          count("from_prior"),
          t.number("reachable", 0, 1),
+         {},
          {}};
   for (const char* level : {"weak", "middle", "strong"}) p.levels.emplace_back(level, t.number(level, 0.1, 1e3));
+  if (t.has("power_signal")) {
+    const TomlTable signal = t.table("power_signal");
+    signal.only({"rate", "duration", "correlation", "drift", "ripple", "step"});
+    p.signal = PowerSignal{signal.number("rate", 0.01, 1e4),        signal.number("duration", 1, 1e5),
+                           signal.number("correlation", 1e-3, 1e4), signal.number("drift", 0, 1),
+                           signal.number("ripple", 0, 10),          signal.number("step", 0, 1e3)};
+  }
   return p;
 }
 
@@ -222,10 +233,18 @@ class Maker {
       const TableModel& truth = truths_[c.truth];
       std::normal_distribution<double> normal;
       Eigen::MatrixXd covariance = truth.noise + truth.seed;
+      const VectorXd free_of_noise = truth.baseline + change(truth, c.effects);
+      VectorXd signal_error = VectorXd::Zero(truth.size());
+      for (Index i = 0; plan_.signal && i < truth.size(); ++i) {
+        const Observation& row = table_.rows[static_cast<std::size_t>(i)];
+        if (row.observable != "power") continue;
+        covariance(i, i) -= truth.noise(i, i);
+        signal_error[i] = mean_error(*plan_.signal, free_of_noise[i], row.speed.value_or(0), u_[i], random_);
+      }
       covariance.diagonal().array() += 1e-14 * covariance.diagonal().mean();
       VectorXd z(truth.size());
       for (double& x : z) x = normal(random_);
-      c.observed = truth.baseline + change(truth, c.effects) + covariance.llt().matrixL() * z;
+      c.observed = free_of_noise + signal_error + covariance.llt().matrixL() * z;
     }
     cases_.push_back(std::move(c));
     return cases_.back();

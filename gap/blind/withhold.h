@@ -4,7 +4,8 @@
 // `vielto` neither links nor reads any of this.
 //
 // A case: noise-free values of the truth (its baseline, and its effect at a strength) on the rows of a table of tests,
-// plus one draw of its seed noise and of the rows' errors (u, covariance). u stands in the table of tests, fixed before
+// plus one draw of its seed noise and of the rows' errors (u); those of powers from a transmitter's record in time
+// ([power_signal] in the plan, power_signal.h). u stands in the table of tests, fixed before
 // any case. FOLDER/cases/N/observations.csv and case.json ({"without": [...]}) are for the diagnoser;
 // FOLDER/truth/N.json and FOLDER/seals.sha256 for the score; FOLDER/unreachable.csv lists strengths beyond the
 // reachable part of the prior. The true strength is the library's strength closest to the noise-free truth, in units of
