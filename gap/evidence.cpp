@@ -115,8 +115,7 @@ MatrixXd covariance_at(const TableModel& model, const Effects& effects, const st
   for (std::size_t e = 0; e < effects.size(); ++e) c += model.uncertain(*effects[e], strengths[e]);
   if (effects.size() == 2) {
     const VectorXd both = effects[0]->response(strengths[0]).cwiseProduct(effects[1]->response(strengths[1]));
-    const VectorXd r =
-        model.interaction * effects[0]->shape_error * effects[1]->shape_error * both.cwiseQuotient(model.scale);
+    const VectorXd r = model.interaction * effects[0]->shape_error * effects[1]->shape_error * model.over_scale(both);
     c += r.asDiagonal() * model.shape_correlation * r.asDiagonal();
   }
   return c;

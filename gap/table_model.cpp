@@ -35,6 +35,10 @@ const EffectResponse* TableModel::effect(const std::string& name) const {
   return nullptr;
 }
 
+Eigen::VectorXd TableModel::over_scale(const Eigen::VectorXd& x) const {
+  return (scale.array() > 0).select(x.array() / scale.array(), 0.0);
+}
+
 TableModel TableModel::part(const std::vector<Eigen::Index>& keep) const {
   TableModel p = *this;
   p.rows.clear();
@@ -114,7 +118,7 @@ TableModel TableModel::with_known(const std::string& name, double strength) cons
   const Eigen::VectorXd r = known.response(strength);
   TableModel p = without({name});
   p.baseline += r;
-  const Eigen::VectorXd eta_r = known.shape_error * r.cwiseQuotient(scale);
+  const Eigen::VectorXd eta_r = known.shape_error * over_scale(r);
   p.known_change = eta_r.cwiseAbs();
   if (known_change.size() > 0) p.known_change = (known_change.cwiseAbs2() + eta_r.cwiseAbs2()).cwiseSqrt();
   Eigen::VectorXd factor = Eigen::VectorXd::Ones(size());

@@ -66,6 +66,9 @@ struct TableModel {
   Eigen::MatrixXd null_covariance() const { return noise + seed + emulator + family + discrepancy; }
   Eigen::VectorXd gap() const { return observed - baseline - family_shift; }
   const EffectResponse* effect(const std::string& name) const;
+  // x over the scale; 0 where an observable has no size of its own (the zero of an idle run), so that effects add up
+  // there.
+  Eigen::VectorXd over_scale(const Eigen::VectorXd& x) const;
   // The same with logarithms in the rows that are relative and have a value above 0, covariances to first order: those
   // of the simulation over f, the noise over the observed value. NoiseOver::baseline is for thresholds and isolability,
   // where no value counts yet: the noise over f too, and logarithms whatever stands in place of a value.

@@ -267,6 +267,42 @@ TEST_F(GapCommand, RefusesUnknownNamesOnTheCommandLine) {
   expect_refusal("has no row left under --only", "--only wall=B");
 }
 
+// An observable that is nothing in the baseline has no size that effects could multiply by: the zero of an idle run.
+TEST_F(GapCommand, ARowWhoseBaselineIsZeroTakesPartInThePairs) {
+  std::ofstream(folder_ / "library/design.csv", std::ios::app)
+      << fmt::format("bench_zero,none,0,1,{:064x},25,0.1\nbench_speed,none,0,1,{:064x},25,0.1\n", 999991, 999992);
+  Observation zero;
+  zero.test = "bench_zero";
+  zero.role = "fit";
+  zero.apparatus = "bench";
+  zero.observable = "zero_drift";
+  zero.unit = "W";
+  zero.u = 1e-6;
+  zero.speed = 1;
+  Observation turns = zero;
+  turns.test = "bench_speed";
+  turns.observable = "shaft_speed";
+  turns.unit = "1/s";
+  turns.value = 1;
+  vielto::write_observations((folder_ / "library/bench.csv").string(), {zero, turns});
+  zero.value = -0.1;
+  zero.u = 0.2;
+  turns.u = 0.002;
+  rows_.push_back(zero);
+  rows_.push_back(turns);
+  write(rows_);
+  ASSERT_EQ(diagnose(), 0) << err_;
+  const json d = json::parse(content(folder_ / "answer/diagnosis.json"));
+  double sum = 0;
+  for (const auto& [name, p] : d["probabilities"].items()) {
+    ASSERT_TRUE(p.is_number()) << name;  // NaN would be null
+    sum += p.get<double>();
+  }
+  EXPECT_NEAR(sum, 1, 1e-9);
+  EXPECT_TRUE(d["probabilities"].contains("cohesion+idle_drift")) << d["probabilities"];
+  EXPECT_EQ(d["named"], json({"cohesion"}));
+}
+
 // At conditions no run was made for. The toy's power is 30 n^1.1 l/0.15 sqrt(friction/25) (rolling/0.1)^0.1.
 TEST_F(GapCommand, PredictsWhatTheCalibratedSimulationSaysAndHowSureItIs) {
   ASSERT_EQ(gap("predict --library library --speed 1.0,0.6 --fill 0.2 --out p.csv"), 0) << err_;
