@@ -44,6 +44,26 @@ with tempfile.TemporaryDirectory(prefix="vielto-responses-") as name:
     sd = math.sqrt(700 - (20**2 + 12**2 + 13**2) / 3)
     assert f"(3 members): +10 %, 95 % band {10 - 2 * sd:+.0f} … {10 + 2 * sd:+.0f} % at speed 0.5, fill 0.1" in told.stdout, told.stdout
 
+    # two effects at once: 24 of 10; shape makes 1.5 and wall_friction 12 of 10: 1.8 if they multiply, a third more together
+    with open(folder / "design.csv", "a") as file:
+        file.write("w,wall_friction,5,1,w,20\n")
+    with open(folder / "observations.csv", "a") as file:
+        file.write("w,fit,mixer,power_loaded,15,0.1,W,0.5,0.1,,,,,,m\nw,fit,mixer,power_idle,3,0,W,0.5,0.1,,,,,,m\n")
+    header = (folder / "observations.csv").read_text().splitlines()[0]
+    pair = folder.parent / (folder.name + ".csv")
+    row = "{},fit,mixer,power_loaded,27,0.1,W,{},0.1,,,,,,m\n{},fit,mixer,power_idle,3,0,W,{},0.1,,,,,,m\n"
+    name = "pair1_shape0.2_and_wall_friction5_s1"
+    pair.write_text(header + "\n" + row.format(name, 0.5, name, 0.5))
+    told = responses(folder, "--pairs", pair)
+    beyond = 100 * math.hypot(0.1, math.hypot(0.1 / math.sqrt(2), 0.1 / math.sqrt(3)), math.hypot(0.1, 0.1 / math.sqrt(3)))
+    assert f"| shape 0.2 and wall_friction 5 | speed 0.5, fill 0.1 | +140 ± 24 % | +80 % | +10.0 % | +33 ± {beyond:.0f} % |" in told.stdout, told.stdout + told.stderr
+    for name, speed, fault in (("two", 0.5, "does not name a pair"), ("p_shape0.2_and_cohesion5_s1", 0.5, "has no run of cohesion 5"),
+                               ("p_shape0.2_and_wall_friction5_s1", 0.7, "has no baseline at speed 0.7")):
+        pair.write_text(header + "\n" + row.format(name, speed, name, speed))
+        refused = responses(folder, "--pairs", pair)
+        assert refused.returncode == 2 and fault in refused.stderr and refused.stderr.count("\n") == 1 and not refused.stdout, refused
+    pair.unlink()
+
     for words, fault in (((folder, "--observable", "angle"), "there is no angle in it; --observable takes power_idle, power_loaded"),
                          ((folder / "none",), "name a response library")):
         refused = responses(*words)
