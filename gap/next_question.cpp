@@ -41,8 +41,9 @@ std::vector<NextTest> next_tests(const Inputs& inputs, const ReducedTable& fit, 
       continue;
     open.push_back(&m);
   }
+  const bool unknown = diagnosis.verdict == "unknown";
   std::vector<NextTest> tests;
-  if (open.size() < 2) return tests;
+  if (open.size() < 2 && !unknown) return tests;
   std::vector<std::string> left_out;
   std::string reason;
   for (const CandidateTest& test : read_candidate_tests(candidates)) {
@@ -57,14 +58,18 @@ std::vector<NextTest> next_tests(const Inputs& inputs, const ReducedTable& fit, 
         added.covariance.coeffRef(k, k) = added.rows[i].u * added.rows[i].u;
       }
       const TableModel joint = inputs.emulator.model(joined(fit, added), options, inputs.settings).without(without);
+      const auto present = static_cast<Index>(fit.rows.size());
+      if (unknown) {
+        tests.push_back(judge_for_unknown(joint.in_logarithms(TableModel::NoiseOver::observed), present, test));
+        continue;
+      }
       // An effect may be no candidate once the added row needs runs that the library lacks.
       std::vector<const ModelEvidence*> known;
       for (const ModelEvidence* m : open)
         if (std::all_of(m->effects.begin(), m->effects.end(), [&](const std::string& e) { return joint.effect(e); }))
           known.push_back(m);
       if (known.size() == open.size())
-        tests.push_back(judge_candidate(joint.in_logarithms(TableModel::NoiseOver::baseline),
-                                        static_cast<Index>(fit.rows.size()), test, known));
+        tests.push_back(judge_candidate(joint.in_logarithms(TableModel::NoiseOver::baseline), present, test, known));
       else
         notes.push_back(fmt::format("next test {}: the library lacks runs for it", test.name));
     } catch (const BadInput& error) {

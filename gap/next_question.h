@@ -7,7 +7,8 @@
 
 namespace vielto::gap {
 
-// Open: the members of an ambiguous group, else the four most probable named models. Candidates that the library does
+// Open: the members of an ambiguous group, else the four most probable named models; where the gap is unknown, the gap
+// itself. Candidates that the library does
 // not reach (observable, conditions) are told in `notes` and left out.
 std::vector<NextTest> next_tests(const Inputs& inputs, const ReducedTable& fit, const EmulatorOptions& options,
                                  const Diagnosis& diagnosis, const std::string& candidates,

@@ -107,13 +107,22 @@ ReducedTable candidate_table(const std::string& path, const CandidateTest& test,
   return table;
 }
 
-NextTest judge_candidate(const TableModel& joint, Index present, const CandidateTest& test,
-                         const std::vector<const ModelEvidence*>& open) {
+namespace {
+
+NextTest described(const CandidateTest& test) {
   NextTest next;
   next.name = test.name;
   next.apparatus = test.apparatus;
   next.how = test.how;
   next.hours = test.hours;
+  return next;
+}
+
+}  // namespace
+
+NextTest judge_candidate(const TableModel& joint, Index present, const CandidateTest& test,
+                         const std::vector<const ModelEvidence*>& open) {
+  NextTest next = described(test);
   std::vector<Predicted> p;
   for (const ModelEvidence* m : open) p.push_back(predicted(joint, *m));
   double weight = 0, most = -1;
@@ -133,6 +142,25 @@ NextTest judge_candidate(const TableModel& joint, Index present, const Candidate
     next.separation_now /= weight;
     next.separation /= weight;
   }
+  next.gain_per_hour = (next.separation - next.separation_now) / next.hours;
+  return next;
+}
+
+NextTest judge_for_unknown(const TableModel& joint, Index present, const CandidateTest& test) {
+  const Index n = joint.size();
+  const MatrixXd c = joint.null_covariance();
+  MatrixXd shape = MatrixXd::Zero(n, n);
+  for (const MatrixXd& k : joint.unknown_shapes) shape += k / static_cast<double>(joint.unknown_shapes.size());
+  const MatrixXd z = joint.unknown_scale.asDiagonal() * shape * joint.unknown_scale.asDiagonal();
+  VectorXd gap(n);
+  const VectorXd now = joint.gap().head(present);
+  gap.head(present) = now;
+  gap.tail(n - present) =
+      z.bottomLeftCorner(n - present, present) * (c + z).topLeftCorner(present, present).llt().solve(now);
+  NextTest next = described(test);
+  next.separates = "the gap from none";
+  next.separation_now = std::sqrt(now.dot(c.topLeftCorner(present, present).llt().solve(now)));
+  next.separation = std::sqrt(gap.dot(c.llt().solve(gap)));
   next.gain_per_hour = (next.separation - next.separation_now) / next.hours;
   return next;
 }

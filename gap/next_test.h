@@ -6,6 +6,11 @@
 // added rows together and C its covariance (both models' mean, strengths' uncertainty to first order included): the
 // expected separation is sqrt(D' C^-1 D). Its gain over the present rows alone, weighed over the pairs by the product
 // of their probabilities, is divided by the hours.
+//
+// For a gap that nothing in the library explains there are no two effects to separate. What a test can do then is to
+// narrow what the simulation leaves open (calibration, law), so that the gap stands out, or to show it again: with g
+// the gap of the present rows, Z the covariance of an unknown gap (its shapes' mean; nothing across apparatuses) and G
+// = [g, Z_cf (C_ff + Z_ff)^-1 g] the gap to be expected, from sqrt(g' C_ff^-1 g) to sqrt(G' C^-1 G).
 #pragma once
 
 #include <string>
@@ -37,5 +42,8 @@ ReducedTable candidate_table(const std::string& path, const CandidateTest& test,
 // `joint`: the fit rows followed by the candidate's rows.
 NextTest judge_candidate(const TableModel& joint, Eigen::Index present, const CandidateTest& test,
                          const std::vector<const ModelEvidence*>& open);
+
+// The same for an unknown gap: how far the gap stands from none, now and with the test.
+NextTest judge_for_unknown(const TableModel& joint, Eigen::Index present, const CandidateTest& test);
 
 }  // namespace vielto::gap

@@ -11,6 +11,7 @@
 #include "discrepancy.h"
 #include "evidence.h"
 #include "gaussian_process.h"
+#include "next_test.h"
 #include "regions.h"
 #include "trends.h"
 
@@ -74,6 +75,38 @@ TEST(GapEvidence, OneEffectAgainstTheClosedForm) {
     // The midpoint rule with 64 cells over a bell cut off at 0: its error is below a thousandth.
     EXPECT_NEAR(effect_evidence(m, {&m.effects[0]}).log_evidence, exact, 1e-3) << s;
   }
+}
+
+// Two rows, one present and one to come. With the same factor of the family in both (variance A), noise u^2 and v^2 and
+// a gap g of the first alone, the second leaves A v^2/(A + v^2) of the family: from g/sqrt(A + u^2) to g/sqrt(A v^2/(A
+// + v^2) + u^2).
+TEST(NextTest, ThatNarrowsTheFamilyMakesAnUnknownGapStandOut) {
+  const double A = 0.04, u = 0.1, v = 0.01, g = 0.3;
+  VectorXd y(2);
+  y << 10 + g, 10;
+  TableModel m = linear_model(y, {}, 0, 1);
+  m.noise << u * u, 0, 0, v * v;
+  m.family.setConstant(A);
+  m.unknown_shapes = {MatrixXd::Identity(2, 2)};
+  vielto::gap::CandidateTest test;
+  test.name = "heap";
+  test.hours = 2;
+  const auto next = judge_for_unknown(m, 1, test);
+  EXPECT_NEAR(next.separation_now, g / std::sqrt(A + u * u), 1e-12);
+  EXPECT_NEAR(next.separation, g / std::sqrt(A * v * v / (A + v * v) + u * u), 1e-9);
+  EXPECT_NEAR(next.gain_per_hour, (next.separation - next.separation_now) / 2, 1e-12);
+
+  // the same quantity measured again, an unknown gap common to both (z): G = [g, z/(A + u^2 + z) g], C = A + noise
+  const double z = 0.09;
+  m.noise << u * u, 0, 0, u * u;
+  m.unknown_shapes = {MatrixXd::Constant(2, 2, z)};
+  const double second = z / (A + u * u + z) * g, det = (A + u * u) * (A + u * u) - A * A;
+  const double squared = ((A + u * u) * (g * g + second * second) - 2 * A * g * second) / det;
+  EXPECT_NEAR(judge_for_unknown(m, 1, test).separation, std::sqrt(squared), 1e-9);
+  // one that the family and the gap leave alone tells nothing
+  m.family << A, 0, 0, 0;
+  m.unknown_shapes = {MatrixXd::Identity(2, 2)};
+  EXPECT_NEAR(judge_for_unknown(m, 1, test).gain_per_hour, 0, 1e-12);
 }
 
 // Two effects with a Gaussian well inside the prior: p(y) = N(y; f + A s^, C) 2 pi / sqrt(det A' C^-1 A) / 36.
