@@ -28,8 +28,8 @@ struct SimulatedValue {
   std::array<double, kSimulatedParts.size()> parts{};  // u of each, in the observable's unit
 };
 
-// Every combination of the values of each condition ("speed", "fill" ...).
-// Errors: BadInput for a condition that is none.
+// Every combination of the values of each condition, by the names of kConditions ("speed", "fill" ...).
+// Errors: BadInput for an observable that the apparatus lacks.
 std::vector<Observation> combinations(const std::string& apparatus, const std::string& observable,
                                       const std::map<std::string, std::vector<double>>& conditions);
 

@@ -135,16 +135,21 @@ TEST_F(GapBlind, TheAnswerIsTheSameWithAndWithoutTruthsInReach) {
 
 TEST_F(GapBlind, RefusesAPlanOfAnImpossibleTransmitterWithOneClearLine) {
   ASSERT_EQ(status_, 0) << output_;
-  std::string plan = content(folder_.string() + ".toml");
-  plan.replace(plan.find("correlation = 2"), 15, "correlation = -2");
-  std::ofstream(folder_ / "bad.toml") << plan;
-  EXPECT_EQ(run(fmt::format("cd '{}' && gap-withhold --library gap/library --truth gap/library --tests tests.csv "
-                            "--sealed sealed/isolability.json --plan bad.toml --out never",
-                            folder_.string())),
-            2);
-  EXPECT_NE(output_.find("bad.toml, column correlation: "), std::string::npos) << output_;
-  EXPECT_EQ(std::count(output_.begin(), output_.end(), '\n'), 1) << output_;
-  EXPECT_FALSE(fs::exists(folder_ / "never"));
+  const std::string plan = content(folder_.string() + ".toml");
+  const auto refused = [&](const std::string& line, const std::string& other, const std::string& column) {
+    std::string bad = plan;
+    bad.replace(bad.find(line), line.size(), other);
+    std::ofstream(folder_ / "bad.toml") << bad;
+    EXPECT_EQ(run(fmt::format("cd '{}' && gap-withhold --library gap/library --truth gap/library --tests tests.csv "
+                              "--sealed sealed/isolability.json --plan bad.toml --out never",
+                              folder_.string())),
+              2);
+    EXPECT_NE(output_.find("bad.toml, column " + column + ": "), std::string::npos) << output_;
+    EXPECT_EQ(std::count(output_.begin(), output_.end(), '\n'), 1) << output_;
+    EXPECT_FALSE(fs::exists(folder_ / "never"));
+  };
+  refused("correlation = 2", "correlation = -2", "correlation");
+  refused("rate = 10", "rate = 0.02", "duration");  // one sample
 }
 
 // A right answer at random: one of about a dozen verdicts. With the truths permuted, names fit by chance only; a truth

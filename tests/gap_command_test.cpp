@@ -418,6 +418,17 @@ TEST_F(GapCommand, NextTestRanksByGainPerHour) {
   EXPECT_NE(out_.find("mixer_slow_low"), std::string::npos) << out_;
 }
 
+// A power that goes with another exponent of the speed than anything in the library explains.
+TEST_F(GapCommand, NextTestOfAnUnknownGapMakesItStandOut) {
+  for (Observation& row : rows_)
+    if (row.observable == "power") row.value *= 2.5 * std::pow(*row.speed, -1.5);
+  write(rows_);
+  ASSERT_EQ(gap("next t.csv --library library --draws 100"), 0) << err_;
+  EXPECT_NE(out_.find("none of the effects in the library"), std::string::npos) << out_;
+  EXPECT_NE(out_.find("the gap from none"), std::string::npos) << out_;
+  EXPECT_EQ(out_.find("from cohesion"), std::string::npos) << out_;
+}
+
 TEST_F(GapCommand, ConfirmPrintsTheCommandsOfEveryCheckTest) {
   keep_mixer_checks();
   ASSERT_EQ(gap("confirm t.csv --library library --draws 100 --out answer --root " VIELTO_SOURCE_DIR), 0) << err_;

@@ -56,6 +56,8 @@ with tempfile.TemporaryDirectory(prefix="vielto-responses-") as name:
     pair.write_text(header + "\n" + row.format(name, 0.5, name, 0.5))
     told = responses(folder, "--pairs", pair)
     beyond = 100 * math.hypot(0.1, math.hypot(0.1 / math.sqrt(2), 0.1 / math.sqrt(3)), math.hypot(0.1, 0.1 / math.sqrt(3)))
+    chi2 = 100 / 3 / beyond, 100 / 3 / math.hypot(beyond, 5)
+    assert f"chi2 of 1 pairs {chi2[0] ** 2:.1f}, {chi2[1] ** 2:.1f} with" in told.stdout, told.stdout
     assert f"| shape 0.2 and wall_friction 5 | speed 0.5, fill 0.1 | +140 ± 24 % | +80 % | +10.0 % | +33 ± {beyond:.0f} % |" in told.stdout, told.stdout + told.stderr
     for name, speed, fault in (("two", 0.5, "does not name a pair"), ("p_shape0.2_and_cohesion5_s1", 0.5, "has no run of cohesion 5"),
                                ("p_shape0.2_and_wall_friction5_s1", 0.7, "has no baseline at speed 0.7")):

@@ -2,10 +2,10 @@
 // Purpose: the error of a mean power as a transmitter's record makes it, instead of one Gaussian draw: samples in time
 // with correlated noise, a zero that drifts, the ripple of the turning rotor, and steps of the display.
 //
-// Equation: x_j = step round((P (1 + ripple sin(2 pi n t_j + phase)) + a_j + D t_j/T)/step), t_j = j/rate, j < rate T;
-// a AR(1) with correlation exp(-1/(rate tau)), error = mean x - P. Amplitudes: var(mean a) = (1 - drift) u^2 and
-// var(D/2) = drift u^2, so that the standard deviation of the error is the row's u (ripple and steps add what they do).
-// Units: P, u, step W; n, rate 1/s; T, tau s; ripple, drift 1.
+// Equation: x_j = step round((P (1 + ripple sin(2 pi n t_j + phase)) + a_j + D t_j/T)/step), t_j = (j + 1/2)/rate, j <
+// rate T; a AR(1) with correlation exp(-1/(rate tau)), error = mean x - P. Amplitudes: var(mean a) = (1 - drift) u^2
+// and var(D/2) = drift u^2, so that the standard deviation of the error is the row's u (ripple and steps add what they
+// do). step 0: no rounding. Units: P, u, step W; n, rate 1/s; T, tau s; ripple, drift 1.
 #pragma once
 
 #include <cmath>

@@ -53,6 +53,9 @@ Plan read_plan(const std::string& path) {
     p.signal = PowerSignal{signal.number("rate", 0.01, 1e4),        signal.number("duration", 1, 1e5),
                            signal.number("correlation", 1e-3, 1e4), signal.number("drift", 0, 1),
                            signal.number("ripple", 0, 10),          signal.number("step", 0, 1e3)};
+    const double samples = p.signal->rate * p.signal->duration;
+    if (!(samples >= 2 && samples <= 1e6))
+      signal.refuse("duration", fmt::format("times rate makes {:g} samples", samples), "state 2 to a million");
   }
   return p;
 }
