@@ -2,6 +2,8 @@
 """scripts/campaign through its command line: a study of small mixer runs; killed with all that it started, and called
 again, it ends with the same tables to the last digit; bad studies are refused.
    campaign_test.py BIN    folder of our liggghts and vielto"""
+import importlib.machinery
+import importlib.util
 import pathlib
 import shutil
 import subprocess
@@ -28,8 +30,29 @@ def tables(out):
 
 if not shutil.which("snakemake"):
     sys.exit(77)
+loader = importlib.machinery.SourceFileLoader("campaign", str(ROOT / "scripts/campaign"))
+program = importlib.util.module_from_spec(importlib.util.spec_from_loader("campaign", loader))
+loader.exec_module(program)
+
+
+def share(faster, slower):
+    return program.work(slower) / program.work(faster)
+
+
+# what the time left rests on: grains times steps
+bed = {"rig": "shearbox", "bed": "a"}
+assert abs(share({**bed, "shearVelocity": "0.05"}, {**bed, "shearVelocity": "0.005"}) - 10) < 1e-9
+assert share(bed, {"rig": "shearbox"}) > 1  # which fills a bed of its own
+mixer = {"rig": "mixer", "grainDiameter": "0.012"}
+assert abs(share(mixer, {**mixer, "slicePaddles": "0"}) - 22 / 4) < 1e-9
+assert abs(share(mixer, {**mixer, "grainDiameter": "0.006", "speed": "0.5"}) - 32) < 1e-9
+assert share({"rig": "repose"}, {"rig": "repose", "liftSpeed": "0.01"}) > 1.5
+assert abs(share({"rig": "drum"}, {"rig": "drum", "fill": "0.25"}) - 0.5) < 1e-9
 with tempfile.TemporaryDirectory(prefix="vielto-campaign-") as name:
     folder = pathlib.Path(name)
+    (folder / "runs").mkdir()
+    (folder / "runs/a.log").write_text("run 1 of 1\ndisplacement 1.7 of 8.0 mm, 0:18 left\ndisplacement 2.0 of 8.0 mm, shear force 9 N, 0:15 left\n")
+    assert abs(program.share_done(folder, {"run": "a"}) - 0.25) < 1e-9 and program.share_done(folder, {"run": "b"}) == 0
     study = folder / "study.csv"
     study.write_text(STUDY)
     whole = subprocess.run(campaign(study, folder / "whole"), capture_output=True, text=True)
