@@ -14,12 +14,8 @@ truth=()
 for t in truth/*/; do truth+=(--truth "$t"); done
 gap-withhold --library gap/library "${truth[@]}" --tests tests.csv --sealed sealed/isolability.json --plan "$plan" --out blind >/dev/null
 # The diagnosis runs without any truth in reach.
-mkdir -p hidden/blind
-mv truth hidden/
-mv blind/truth blind/seals.sha256 hidden/blind/
-"$here/../gap/blind/diagnose-all" blind/cases answers sealed/isolability.json gap/library --draws "$draws"
-mv hidden/truth .
-mv hidden/blind/* blind/
+"$here/../gap/blind/in-secret" truth blind/truth blind/seals.sha256 -- \
+  "$here/../gap/blind/diagnose-all" blind/cases answers sealed/isolability.json gap/library --draws "$draws"
 gap-score blind --answers answers --sealed sealed/isolability.json --out score.json
 for k in 1 2 3 4 5 6 7 8; do
   gap-score blind --answers answers --sealed sealed/isolability.json --shuffle $k --out shuffled$k.json
