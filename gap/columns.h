@@ -19,10 +19,8 @@ namespace vielto::gap {
 // A CSV file whose header begins with `first` columns; calls use(line, fields) for each row, returns the other columns.
 template <class Use>
 std::vector<std::string> read_columns(const std::string& path, const std::vector<std::string>& first, Use use) {
-  std::ifstream in(path, std::ios::binary);
-  if (!in) throw BadInput(path, 0, "cannot be read", "name an existing file");
-  std::string line;
-  std::getline(in, line);
+  std::ifstream in;
+  std::string line = open_table(in, path);
   std::vector<std::string_view> fields;
   split_fields(line, fields);
   const std::vector<std::string> header(fields.begin(), fields.end());

@@ -1,15 +1,20 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "confirm.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <mutex>
 #include <regex>
 #include <set>
+#include <sstream>
 #include <thread>
 
 #include "bad_input.h"
@@ -35,6 +40,71 @@ std::vector<double> medians(const ModelEvidence& m) {
   return s;
 }
 
+std::vector<std::string> words_of(const std::string& text) {
+  std::vector<std::string> words;
+  std::istringstream in(text);
+  for (std::string word; in >> word;) words.push_back(word);
+  return words;
+}
+
+std::string quoted(const std::string& word) {
+  const char* const plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./=+:,-%@";
+  if (!word.empty() && word.find_first_not_of(plain) == std::string::npos) return word;
+  std::string text = "'";
+  for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return text + "'";
+}
+
+std::string quoted(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : " ") + quoted(word);
+  return text;
+}
+
+// Runs a command in a folder without a shell, what it prints appended to `log`. True if it ended with 0.
+bool runs_well(const std::vector<std::string>& command, const std::string& folder, const std::string& log) {
+  std::vector<char*> words;
+  for (const std::string& word : command) words.push_back(const_cast<char*>(word.c_str()));
+  words.push_back(nullptr);
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_addopen(&actions, 1, fs::absolute(log).c_str(), O_WRONLY | O_CREAT | O_APPEND, 0644);
+  posix_spawn_file_actions_adddup2(&actions, 1, 2);
+  posix_spawn_file_actions_addchdir_np(&actions, folder.c_str());
+  pid_t child = 0;
+  int status = 0;
+  const bool started = posix_spawnp(&child, words[0], &actions, nullptr, words.data(), environ) == 0;
+  posix_spawn_file_actions_destroy(&actions);
+  while (started && waitpid(child, &status, 0) == -1 && errno == EINTR) {
+  }
+  return started && WIFEXITED(status) && WEXITSTATUS(status) == 0;
+}
+
+// -var of the library's own runs of a rig: what its plan says.
+std::map<std::string, std::string> library_settings(const std::string& folder, const std::string& rig,
+                                                    std::vector<std::string>& notes) {
+  std::map<std::string, std::string> settings;
+  const std::string path = (fs::path(folder) / "plan.toml").string();
+  if (!fs::exists(path)) {
+    notes.push_back(
+        fmt::format("the library has no plan.toml that says how its runs of {} were set: they are made as the rig "
+                    "stands, with --var",
+                    rig));
+    return settings;
+  }
+  const TomlTable plan = TomlTable::read(path);
+  if (const toml::array* rigs = plan.raw()["rig"].as_array())
+    for (const toml::node& node : *rigs) {
+      if (!node.is_table()) continue;
+      const TomlTable t(path, *node.as_table());
+      if (t.text("name") != rig || !t.has("settings")) continue;
+      const TomlTable own = t.table("settings");
+      for (const auto& entry : own.raw())
+        settings[std::string(entry.first.str())] = own.text(std::string(entry.first.str()));
+    }
+  return settings;
+}
+
 // What a command simulates: without the folder, and without the taking up of a run that was broken off.
 std::string simulated_by(const std::string& command) {
   static const std::regex place(" -var (run|resume) [^ ]+");
@@ -46,7 +116,7 @@ std::string simulated_by(const std::string& command) {
 Plan plan_confirmation(const Inputs& inputs, const TableModel& model, const Diagnosis& d,
                        const Isolability& isolability, const std::string& rigs_file, const std::string& root,
                        const std::string& runs, int seeds, const std::vector<std::string>& extra,
-                       const std::map<std::string, double>& known) {
+                       const std::map<std::string, double>& known, std::vector<std::string>& notes) {
   std::vector<Index> fit_rows;
   for (std::size_t i = 0; i < model.rows.size(); ++i)
     if (model.rows[i].role == "fit") fit_rows.push_back(static_cast<Index>(i));
@@ -79,21 +149,45 @@ Plan plan_confirmation(const Inputs& inputs, const TableModel& model, const Diag
   }
 
   // Settings of all runs; what an effect or the family changes starts from them.
-  std::map<std::string, std::string> common;
+  std::map<std::string, std::string> asked;
   for (const std::string& setting : extra) {
     const auto equals = setting.find('=');
     if (equals == std::string::npos || equals == 0)
       throw BadInput("--var " + setting, 0, "is no setting", "write --var NAME=VALUE");
-    common[setting.substr(0, equals)] = setting.substr(equals + 1);
+    asked[setting.substr(0, equals)] = setting.substr(equals + 1);
   }
+  const std::string place = fs::absolute(runs).lexically_normal().string();
+  if (place.find_first_of(" \t\n$") != std::string::npos)
+    throw BadInput(place, 0, "has a blank or a $ in it, at which LIGGGHTS would split it",
+                   "state --runs FOLDER elsewhere");
   const TomlTable file = TomlTable::read(rigs_file);
   std::map<std::string, Rig> rigs;
+  std::map<std::string, std::map<std::string, std::string>> settings;
+  for (const Observation& row : model.rows) {
+    if (row.role != "check" || row.apparatus == "bench" || rigs.count(row.apparatus)) continue;
+    const Rig& rig = rigs[row.apparatus] = Rig::read(file, row.apparatus, root);
+    settings[row.apparatus] = library_settings(inputs.library.folder, row.apparatus, notes);
+    for (const auto& [name, value] : asked)
+      if (rig.known.count(name)) settings[row.apparatus][name] = value;
+  }
+  for (const auto& [name, value] : asked) {
+    bool is_known = false;
+    for (const auto& [apparatus, rig] : rigs) {
+      is_known = is_known || rig.known.count(name);
+      if (rig.base.count(name) && !finite_number(value))
+        throw BadInput(fmt::format("--var {}={}", name, value), 0,
+                       fmt::format("is no number, as in.{} has it", apparatus), "state one");
+    }
+    if (!is_known)
+      throw BadInput(fmt::format("--var {}={}", name, value), 0, "is no parameter of the check tests' rigs",
+                     "see cases/*/*.par and materials/*.par");
+  }
   std::set<std::string> done;
   std::map<std::string, std::string> alike;  // conditions -> the test whose runs serve all of these
   for (const Observation& row : model.rows) {
     if (row.role != "check" || row.apparatus == "bench" || !done.insert(row.test).second) continue;
-    if (rigs.count(row.apparatus) == 0) rigs[row.apparatus] = Rig::read(file, row.apparatus, root);
     const Rig& rig = rigs[row.apparatus];
+    const std::map<std::string, std::string>& common = settings[row.apparatus];
     const std::string first = alike.emplace(row.apparatus + " " + conditions_text(row), row.test).first->second;
     if (first != row.test) {
       for (PlannedRun& run : plan.runs)
@@ -110,7 +204,7 @@ Plan plan_confirmation(const Inputs& inputs, const TableModel& model, const Diag
         run.folder = rig.folder;
         run.files = rig.files;
         run.resumes = rig.known.count("resume") > 0;
-        run.run = (fs::absolute(runs) / fmt::format("{}-{}-s{}", row.test, v.name, seed)).lexically_normal().string();
+        run.run = (fs::path(place) / fmt::format("{}-{}-s{}", file_name_of(row.test), v.name, seed)).string();
         run.command = {"liggghts", "-in", rig.script};
         const auto var = [&](const std::string& name, const std::string& value) {
           run.command.insert(run.command.end(), {"-var", name, value});
@@ -155,16 +249,29 @@ Plan plan_confirmation(const Inputs& inputs, const TableModel& model, const Diag
         for (const auto& [name, value] : changed) var(name, value);
         var("seed", fmt::format("{}", seed));
         var("run", run.run);
-        if (!rig.post.empty()) run.post = rig.post + " '" + run.run + "'";
+        if (!rig.post.empty()) {
+          run.post = words_of(rig.post);
+          run.post.push_back(run.run);
+        }
         plan.runs.push_back(run);
       }
   }
   return plan;
 }
 
+std::string file_name_of(const std::string& test) {
+  std::string name = test;
+  for (char& c : name)
+    if (!(c >= '0' && c <= '9') && !(c >= 'a' && c <= 'z') && !(c >= 'A' && c <= 'Z') && c != '.' && c != '_' &&
+        c != '-')
+      c = '_';
+  if (name.front() == '.' || name.front() == '-') name.front() = '_';
+  return name == test ? name : name + "-" + sha256_of_text(test).substr(0, 8);
+}
+
 std::string command_line(const PlannedRun& run) {
-  return fmt::format("(cd '{}' && {}{})", run.folder, fmt::join(run.command, " "),
-                     run.post.empty() ? "" : " && " + run.post);
+  return fmt::format("(cd {} && {}{})", quoted(run.folder), quoted(run.command),
+                     run.post.empty() ? "" : " && " + quoted(run.post));
 }
 
 void refuse_other_runs(const Plan& plan) {
@@ -189,35 +296,38 @@ void refuse_other_runs(const Plan& plan) {
 }
 
 void run_plan(const Plan& plan, int jobs) {
-  std::vector<std::pair<std::string, std::string>> missing;  // command line, log
+  std::vector<PlannedRun> missing;
   for (const PlannedRun& run : plan.runs) {
     if (fs::exists(fs::path(run.run) / "post" / "observations.csv")) continue;
     fs::create_directories(fs::path(run.run).parent_path());
     PlannedRun now = run;
     if (fs::exists(fs::path(run.run) / "run.json"))
-      now.command = {"true"};  // complete, only its rows are missing
+      now.command.clear();  // complete, only its rows are missing
     else if (fs::exists(run.run + ".partial") && !run.resumes)
       fs::remove_all(run.run + ".partial");
     else if (fs::exists(run.run + ".partial"))
       now.command.insert(now.command.end(), {"-var", "resume", "yes"});
-    missing.emplace_back(command_line(now), run.run + ".out");
+    fs::remove(run.run + ".out");
+    missing.push_back(now);
   }
   std::mutex lock;
   std::size_t next = 0;
   std::string failed;
   const auto work = [&] {
     for (;;) {
-      std::pair<std::string, std::string> run;
+      PlannedRun run;
       {
         const std::lock_guard<std::mutex> guard(lock);
         if (next == missing.size() || !failed.empty()) return;
         run = missing[next++];
-        fmt::print("{} of {}: {}\n", next, missing.size(), run.first);
+        fmt::print("{} of {}: {}\n", next, missing.size(), command_line(run));
         std::fflush(stdout);
       }
-      if (std::system((run.first + " > '" + run.second + "' 2>&1").c_str()) != 0) {
+      const std::string log = run.run + ".out";
+      if ((!run.command.empty() && !runs_well(run.command, run.folder, log)) ||
+          (!run.post.empty() && !runs_well(run.post, run.folder, log))) {
         const std::lock_guard<std::mutex> guard(lock);
-        if (failed.empty()) failed = fmt::format("a run failed, see {}: {}", run.second, run.first);
+        if (failed.empty()) failed = fmt::format("a run failed, see {}: {}", log, command_line(run));
       }
     }
   };
@@ -227,63 +337,72 @@ void run_plan(const Plan& plan, int jobs) {
   if (!failed.empty()) throw std::runtime_error(failed);
 }
 
-Shrink measured_shrink(const Plan& plan, const Inputs& inputs, const TableModel& model) {
-  // Mean over the seeds by variant, test and observable.
-  std::map<std::string, std::pair<double, int>> sums;
+Shrink measured_shrink(const Plan& plan, const Inputs& inputs, const TableModel& model, const VectorXd& seed_variance) {
+  // What the seeds show, by variant, test and observable: values and their own standard uncertainties.
+  std::map<std::string, std::vector<std::pair<double, double>>> shown;
   std::map<std::string, double> share;
   for (const PlannedRun& run : plan.runs) {
     const std::string path = (fs::path(run.run) / "post" / "observations.csv").string();
     if (!fs::exists(path)) throw BadInput(path, 0, "is not there", "run: " + command_line(run));
     for (const Observation& row : read_reduced_table(path).rows) {
-      for (const std::string& test : run.tests) {
-        auto& sum = sums[run.variant + " " + test + " " + row.observable];
-        sum.first += row.value;
-        ++sum.second;
-      }
+      for (const std::string& test : run.tests)
+        shown[run.variant + " " + test + " " + row.observable].emplace_back(row.value, row.u);
     }
     for (const std::string& test : run.tests) share[run.variant + " " + test] = run.share;
   }
-  std::vector<const Observation*> rows;
-  std::set<std::string> tests;
-  for (const Observation& row : model.rows)
-    if (row.role == "check" && row.apparatus != "bench") {
-      rows.push_back(&row);
-      tests.insert(row.test);
+  std::vector<Index> at;
+  CheckRows check;
+  for (std::size_t i = 0; i < model.rows.size(); ++i)
+    if (model.rows[i].role == "check" && model.rows[i].apparatus != "bench") {
+      at.push_back(static_cast<Index>(i));
+      check.tests.push_back(model.rows[i].test);
     }
-  const Index n = static_cast<Index>(rows.size());
-  VectorXd observed(n), u(n);
-  std::map<std::string, VectorXd> simulated;
-  const auto mean = [&](const std::string& variant, const Observation& row) {
-    const auto sum = sums.find(variant + " " + row.test + " " + row.observable);
-    if (sum == sums.end())
+  check.observed = model.observed(at);
+  check.noise = model.noise(at, at);
+  const Index n = static_cast<Index>(at.size());
+  // Mean over the seeds and its variance: what the run itself says, what seeds of the library scatter by, and what
+  // these seeds do, whichever is largest.
+  const auto mean = [&](const std::string& variant, const Observation& row, double scatter) {
+    const auto found = shown.find(variant + " " + row.test + " " + row.observable);
+    if (found == shown.end())
       throw BadInput("runs of " + variant, 0, fmt::format("test '{}' shows no {}", row.test, row.observable),
                      "the rig must write it to post/observations.csv");
-    return sum->second.first / sum->second.second;
+    const double k = static_cast<double>(found->second.size());
+    double sum = 0, own = 0, squares = 0;
+    for (const auto& [value, u] : found->second) sum += value / k, own += u * u / k;
+    for (const auto& [value, u] : found->second) squares += std::pow(value - sum, 2);
+    return std::pair(sum, std::max({own, scatter, k > 1 ? squares / (k - 1) : 0.0}) / k);
   };
+  std::map<std::string, SimulatedRows> simulated;
   for (const Variant& v : plan.variants) {
-    VectorXd y(n);
+    SimulatedRows s{VectorXd(n), VectorXd(n)};
     for (Index i = 0; i < n; ++i) {
-      const Observation& row = *rows[static_cast<std::size_t>(i)];
-      observed[i] = row.value;
-      u[i] = row.u;
-      y[i] = mean(v.name, row);
+      const Observation& row = model.rows[static_cast<std::size_t>(at[i])];
+      auto [y, variance] = mean(v.name, row, seed_variance[at[i]]);
       const double part = share.at(v.name + " " + row.test);
-      if (part != 1) y[i] = part * y[i] + (1 - part) * mean("recalibrated", row);
+      if (part != 1) {
+        const auto [without, its] = mean("recalibrated", row, seed_variance[at[i]]);
+        y = part * y + (1 - part) * without;
+        variance = part * part * variance + (1 - part) * (1 - part) * its;
+      }
       for (std::size_t e = 0; e < v.effects.size(); ++e) {
         const Transform* t = effect_named(inputs, v.effects[e]).transform_of(row.apparatus, row.observable);
         if (!t || t->operation == Operation::shift) continue;
         const double g = t->amount(row, v.strengths[e]);
-        y[i] = t->operation == Operation::scale ? y[i] * (1 + g)
-               : t->operation == Operation::add ? y[i] + g
-                                                : y[i] * std::exp(g);
+        const double factor = t->operation == Operation::scale ? 1 + g
+                              : t->operation == Operation::add ? 1
+                                                               : std::exp(g);
+        y = t->operation == Operation::add ? y + g : y * factor;
+        variance *= factor * factor;
       }
+      s.value[i] = y;
+      s.u[i] = std::sqrt(variance);
     }
-    simulated[v.name] = y;
+    simulated[v.name] = s;
   }
-  const VectorXd& recalibrated = simulated.at("recalibrated");
+  const SimulatedRows& recalibrated = simulated.at("recalibrated");
   const auto of = [&](const char* name) { return simulated.count(name) ? simulated.at(name) : recalibrated; };
-  Shrink s = shrink_of(observed, u, simulated.at("before"), recalibrated, of("after"), of("placebo"),
-                       static_cast<int>(tests.size()));
+  Shrink s = shrink_of(check, simulated.at("before"), recalibrated, of("after"), of("placebo"));
   s.placebo_name = plan.placebo;
   return s;
 }

@@ -28,7 +28,7 @@ struct PlannedRun {
   std::string run;     // run folder
   std::vector<std::string> command;
   std::vector<std::string> files;  // it is made from, besides
-  std::string post;                // command line after it; empty: none
+  std::vector<std::string> post;   // command after it; empty: none
   bool resumes = false;            // the rig takes up a run that was broken off; others begin anew
   double share = 1;                // of a switched effect: part of the way from the recalibrated run to this one
 };
@@ -46,14 +46,21 @@ struct Plan {
   std::string placebo;
 };
 
-// `root`: the folder that gap/rigs.toml's paths start from; `runs`: where the run folders go; `extra`: further -var for
-// all; `known`: effects that every run has. Errors: BadInput for a rig without an entry or a script that is not there.
+// Runs have the settings that the library's own runs of the rig have (plan.toml in the library's folder; `notes` says
+// so if there is none), so that what is confirmed is the baseline that was diagnosed. `root`: the folder that
+// gap/rigs.toml's paths start from; `runs`: where the run folders go; `extra`: further NAME=VALUE, for all rigs that
+// have such a -var; `known`: effects that every run has. Errors: BadInput for a rig without an entry, a script that is
+// not there, a setting that no rig has or whose value is no number where the rig states one, and a blank in the path of
+// the runs, at which LIGGGHTS would split it.
 Plan plan_confirmation(const Inputs& inputs, const TableModel& model, const Diagnosis& diagnosis,
                        const Isolability& isolability, const std::string& rigs, const std::string& root,
                        const std::string& runs, int seeds, const std::vector<std::string>& extra,
-                       const std::map<std::string, double>& known);
+                       const std::map<std::string, double>& known, std::vector<std::string>& notes);
 
-// A command line for a shell.
+// A test's name as a file's: letters, digits, '.', '_' and '-' as they are, else '_' and a hash of the name.
+std::string file_name_of(const std::string& test);
+
+// A command line for a shell, every word quoted that needs it.
 std::string command_line(const PlannedRun& run);
 
 // Errors: BadInput naming a run folder that is there and was made by another command or from other files.
@@ -63,7 +70,9 @@ void refuse_other_runs(const Plan& plan);
 // ends first.
 void run_plan(const Plan& plan, int jobs);
 
-// The measured shrink. Errors: BadInput naming a run whose observations are missing.
-Shrink measured_shrink(const Plan& plan, const Inputs& inputs, const TableModel& model);
+// The measured shrink. `seed_variance` of a single run at each row of the model. Errors: BadInput naming a run whose
+// observations are missing.
+Shrink measured_shrink(const Plan& plan, const Inputs& inputs, const TableModel& model,
+                       const Eigen::VectorXd& seed_variance);
 
 }  // namespace vielto::gap

@@ -155,38 +155,63 @@ const ModelEvidence* placebo_of(const Diagnosis& diagnosis, const Isolability& i
   return nullptr;
 }
 
-Shrink shrink_of(const VectorXd& observed, const VectorXd& u, const VectorXd& before, const VectorXd& recalibrated,
-                 const VectorXd& after, const VectorXd& placebo, int tests) {
-  const Index n = observed.size();
-  const auto mean_square = [&](const VectorXd& simulated, const std::vector<Index>& rows) {
-    double sum = 0;
-    for (const Index i : rows) sum += std::pow(simulated[i] / observed[i] - 1, 2) - std::pow(u[i] / observed[i], 2);
-    return std::max(0.0, sum / static_cast<double>(rows.size()));
+Shrink shrink_of(const CheckRows& rows, const SimulatedRows& before, const SimulatedRows& recalibrated,
+                 const SimulatedRows& after, const SimulatedRows& placebo) {
+  const Index n = rows.observed.size();
+  const VectorXd measured_u2 = rows.noise.diagonal().cwiseQuotient(rows.observed.cwiseAbs2());
+  std::map<std::string, std::vector<Index>> rows_of_test;
+  for (Index i = 0; i < n; ++i) rows_of_test[rows.tests[static_cast<std::size_t>(i)]].push_back(i);
+  std::vector<std::vector<Index>> tests;
+  for (const auto& entry : rows_of_test) tests.push_back(entry.second);
+  const auto gap = [&](const SimulatedRows& s) { return VectorXd(s.value.cwiseQuotient(rows.observed).array() - 1); };
+  const auto mean_square = [&](const SimulatedRows& s) { return (gap(s).cwiseAbs2() - measured_u2).mean(); };
+  const auto root = [](double square) { return std::sqrt(std::max(0.0, square)); };
+  const auto closed = [&](double before2, double after2) {
+    return before2 > 0 ? 1 - root(after2) / root(before2) : 0.0;
   };
-  std::vector<Index> all(n);
-  for (Index i = 0; i < n; ++i) all[i] = i;
   Shrink s;
-  s.tests = tests;
-  s.before = std::sqrt(mean_square(before, all));
-  s.recalibrated = std::sqrt(mean_square(recalibrated, all));
-  s.after = std::sqrt(mean_square(after, all));
-  s.placebo = std::sqrt(mean_square(placebo, all));
-  const auto closed = [&](const std::vector<Index>& rows) {
-    const double b = mean_square(before, rows);
-    return b > 0 ? 1 - std::sqrt(mean_square(after, rows) / b) : 0.0;
-  };
-  s.closed.value = closed(all);
+  s.tests = static_cast<int>(tests.size());
+  s.before = root(s.before2 = mean_square(before));
+  s.recalibrated = root(s.recalibrated2 = mean_square(recalibrated));
+  s.after = root(s.after2 = mean_square(after));
+  s.placebo = root(s.placebo2 = mean_square(placebo));
+  s.closed.value = closed(s.before2, s.after2);
+
+  // Redrawn errors add their variance to the squares, and it is taken out again, so that the draws lie about the value.
+  constexpr std::size_t kTestsToResample = 5;
+  constexpr int kDraws = 4000;
   std::mt19937_64 random(1);
-  std::uniform_int_distribution<Index> pick(0, n - 1);
+  std::normal_distribution<double> normal;
+  const MatrixXd scaled =
+      rows.observed.cwiseInverse().asDiagonal() * rows.noise * rows.observed.cwiseInverse().asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(scaled);
+  const MatrixXd half = eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal();
+  const auto normals = [&] {
+    VectorXd z(n);
+    for (double& x : z) x = normal(random);
+    return z;
+  };
+  const auto redrawn = [&](const SimulatedRows& v, const VectorXd& measured_error) {
+    const VectorXd ratio = v.value.cwiseQuotient(rows.observed), own = v.u.cwiseQuotient(rows.observed);
+    const VectorXd g = gap(v) - ratio.cwiseProduct(measured_error) + own.cwiseProduct(normals());
+    return VectorXd(g.cwiseAbs2() - measured_u2 - ratio.cwiseAbs2().cwiseProduct(measured_u2) - own.cwiseAbs2());
+  };
+  std::uniform_int_distribution<std::size_t> pick(0, tests.size() - 1);
   std::vector<double> draws;
-  for (int b = 0; b < 2000; ++b) {
-    std::vector<Index> rows(n);
-    for (Index& i : rows) i = pick(random);
-    draws.push_back(closed(rows));
+  for (int b = 0; b < kDraws; ++b) {
+    const VectorXd error = half * normals();
+    const VectorXd before2 = redrawn(before, error), after2 = redrawn(after, error);
+    double sum_before = 0, sum_after = 0;
+    for (std::size_t t = 0; t < tests.size(); ++t)
+      for (const Index i : tests[tests.size() < kTestsToResample ? t : pick(random)]) {
+        sum_before += before2[i];
+        sum_after += after2[i];
+      }
+    draws.push_back(closed(sum_before, sum_after));
   }
   std::sort(draws.begin(), draws.end());
-  s.closed.low90 = draws[100];
-  s.closed.high90 = draws[1899];
+  s.closed.low90 = draws[kDraws / 20];
+  s.closed.high90 = draws[kDraws - 1 - kDraws / 20];
   return s;
 }
 
@@ -211,19 +236,14 @@ std::optional<Shrink> predicted_shrink(const TableModel& model, const Diagnosis&
   if (applied.size() == 2) name += "+" + applied[1];
   const ModelEvidence* m = d.model(name);
   const ModelEvidence* placebo = placebo_of(d, isolability);
-  std::set<std::string> tests;
-  VectorXd u(static_cast<Index>(check.size()));
-  for (std::size_t i = 0; i < check.size(); ++i) {
-    u[static_cast<Index>(i)] = model.rows[check[i]].u;
-    tests.insert(model.rows[check[i]].test);
-  }
-  const VectorXd observed = model.observed(check);
-  if ((observed.array() == 0).any()) return std::nullopt;
-  const VectorXd recalibrated = simulated({}, {}, true);
-  Shrink s =
-      shrink_of(observed, u, simulated({}, {}, false), recalibrated, simulated(applied, median_strengths(*m), true),
-                placebo ? simulated(placebo->effects, median_strengths(*placebo), true) : recalibrated,
-                static_cast<int>(tests.size()));
+  CheckRows rows{model.observed(check), model.noise(check, check), {}};
+  for (const Index i : check) rows.tests.push_back(model.rows[static_cast<std::size_t>(i)].test);
+  if ((rows.observed.array() == 0).any()) return std::nullopt;
+  const VectorXd u = VectorXd(model.emulator.diagonal()(check)).cwiseSqrt();
+  const SimulatedRows recalibrated{simulated({}, {}, true), u};
+  Shrink s = shrink_of(
+      rows, {simulated({}, {}, false), u}, recalibrated, {simulated(applied, median_strengths(*m), true), u},
+      placebo ? SimulatedRows{simulated(placebo->effects, median_strengths(*placebo), true), u} : recalibrated);
   if (placebo) s.placebo_name = placebo->name();
   return s;
 }
@@ -315,7 +335,9 @@ nlohmann::ordered_json shrink_json(const Shrink& s) {
       {"recalibrated", s.recalibrated},
       {"after", s.after},
       {"placebo", s.placebo},
-      {"closed", {{"value", s.closed.value}, {"low90", s.closed.low90}, {"high90", s.closed.high90}}}};
+      {"closed", {{"value", s.closed.value}, {"low90", s.closed.low90}, {"high90", s.closed.high90}}},
+      {"mean_squares",
+       {{"before", s.before2}, {"recalibrated", s.recalibrated2}, {"after", s.after2}, {"placebo", s.placebo2}}}};
   if (!s.placebo_name.empty()) j["placebo_effect"] = s.placebo_name;
   return j;
 }
@@ -405,8 +427,8 @@ std::string verdict_sentence(const Diagnosis& d) {
   };
   const auto strength = [&](std::size_t i) {
     const NamedStrength& s = d.strengths[i];
-    return fmt::format("{} at strength {:.3g} {} (90 %: {:.3g} to {:.3g})", s.name, s.interval.value, s.unit,
-                       s.interval.low90, s.interval.high90);
+    return fmt::format("{} at strength {:.3g}{} (90 %: {:.3g} to {:.3g})", s.name, s.interval.value,
+                       s.unit == "1" ? "" : " " + s.unit, s.interval.low90, s.interval.high90);
   };
   if (d.verdict == "no_gap")
     return fmt::format(
@@ -414,7 +436,11 @@ std::string verdict_sentence(const Diagnosis& d) {
         "(probability of no gap {:.0f} %).",
         probability("no_gap"));
   if (d.verdict == "unknown")
-    return "There is a gap, and none of the effects in the library nor any two of them explain it.";
+    return fmt::format(
+        "There is a gap, and none of the effects in the library nor any two of them explain it (unknown {:.0f} %, no "
+        "gap "
+        "{:.0f} %).",
+        probability("unknown"), probability("no_gap"));
   if (d.verdict == "ambiguous") {
     constexpr std::size_t kSaid = 3;  // the whole group stands in the table below the sentence
     std::vector<std::string> rivals;

@@ -38,8 +38,22 @@ struct NamedStrength {
 struct Shrink {
   int tests = 0;
   double before = 0, recalibrated = 0, after = 0, placebo = 0;
+  // Their squares before those below 0 (noise larger than the gap) are set to 0.
+  double before2 = 0, recalibrated2 = 0, after2 = 0, placebo2 = 0;
   Interval closed;  // 1 - after/before
   std::string placebo_name;
+};
+
+// The measured side of a shrink: values, their covariance, and the test of each row.
+struct CheckRows {
+  Eigen::VectorXd observed;
+  Eigen::MatrixXd noise;
+  std::vector<std::string> tests;
+};
+
+// Simulated values of the check rows and the standard uncertainty of each.
+struct SimulatedRows {
+  Eigen::VectorXd value, u;
 };
 
 struct Sensitivity {
@@ -92,10 +106,10 @@ Eigen::VectorXd recalibrated_parameters(const TableModel& fit, const std::vector
 // The best single effect from outside the diagnosis' own and their group.
 const ModelEvidence* placebo_of(const Diagnosis& diagnosis, const Isolability& isolability);
 
-// The shrink from simulated values of the check rows, all in the order of `observed`; bootstrap over the rows.
-Shrink shrink_of(const Eigen::VectorXd& observed, const Eigen::VectorXd& u, const Eigen::VectorXd& before,
-                 const Eigen::VectorXd& recalibrated, const Eigen::VectorXd& after, const Eigen::VectorXd& placebo,
-                 int tests);
+// The shrink from simulated values of the check rows, all in the order of `rows`. The interval of `closed` redraws the
+// noise of measurement and simulations, and from five tests on which tests there are: fewer say nothing about others.
+Shrink shrink_of(const CheckRows& rows, const SimulatedRows& before, const SimulatedRows& recalibrated,
+                 const SimulatedRows& after, const SimulatedRows& placebo);
 
 // What the emulator expects of the re-simulation; nothing without check rows or for no_gap and unknown.
 std::optional<Shrink> predicted_shrink(const TableModel& model, const Diagnosis& diagnosis,

@@ -65,10 +65,8 @@ Discrepancy estimate_discrepancy(const std::vector<LawDifference>& laws) {
 const char* const kHeader = "apparatus,observable,sd,common,length,laws";
 
 std::vector<DiscrepancyEntry> read_discrepancies(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
-  if (!in) throw BadInput(path, 0, "cannot be read", "name an existing file");
-  std::string line;
-  std::getline(in, line);
+  std::ifstream in;
+  std::string line = open_table(in, path);
   if (line != kHeader) throw BadInput(path, 1, "has another header", fmt::format("write exactly '{}'", kHeader));
   std::vector<DiscrepancyEntry> entries;
   std::vector<std::string_view> f;
@@ -85,6 +83,9 @@ std::vector<DiscrepancyEntry> read_discrepancies(const std::string& path) {
     DiscrepancyEntry entry;
     entry.apparatus = f[0];
     entry.observable = f[1];
+    for (const DiscrepancyEntry& other : entries)
+      if (other.apparatus == entry.apparatus && other.observable == entry.observable)
+        throw BadInput(path, number, "observable", fmt::format("{} {} is stated twice", f[0], f[1]), "state it once");
     entry.value.sd = value(2, "sd", 0, 10);
     entry.value.common = value(3, "common", 0, 1);
     entry.value.length = value(4, "length", 1e-3, 1e3);

@@ -234,13 +234,24 @@ const Emulator::Channel& Emulator::channel_of(const ReducedTable& table, std::si
 }
 
 void Emulator::check_row(const Channel& channel, const ReducedTable& table, std::size_t i,
-                         const EmulatorOptions& options, std::vector<std::string>& outside) const {
+                         const EmulatorOptions& options, std::vector<std::string>& outside,
+                         std::vector<std::string>& silent) const {
   const Observation& row = table.rows[i];
+  const auto tell_silent = [&](const std::string& column, const std::string& value) {
+    if (options.ignored.count(column)) return;
+    const std::string about = fmt::format("{} {}: {} ", channel.apparatus, channel.observable, column);
+    for (const std::string& text : silent)
+      if (text.compare(0, about.size(), about) == 0) return;
+    silent.push_back(
+        fmt::format("{}{} is not accounted for: no run of the library states one (--ignore {} if it does not matter)",
+                    about, value, column));
+  };
   const auto refuse = [&](const std::string& column, const std::string& what, const std::string& mend) {
     throw BadInput(table.path, table.lines[i], column, what, mend);
   };
   const auto label = [&](const char* column, const std::string& value, const std::set<std::string>& known) {
-    if (options.ignored.count(column) || known.empty() || value.empty() || known.count(value)) return;
+    if (options.ignored.count(column) || value.empty() || known.count(value)) return;
+    if (known.empty()) return tell_silent(column, fmt::format("'{}'", value));
     refuse(column, fmt::format("the library has no runs for '{}'", value),
            fmt::format("use {}, or --ignore {}", fmt::join(known, " or "), column));
   };
@@ -252,6 +263,7 @@ void Emulator::check_row(const Channel& channel, const ReducedTable& table, std:
     const auto& stated = row.*c.member;
     if (k == channel.varying.end()) {
       const auto& fixed = channel.sample.*c.member;
+      if (stated && !fixed) tell_silent(c.name, fmt::format("{}", *stated));
       if (fixed && stated && !options.ignored.count(c.name) &&
           std::fabs(*stated - *fixed) > 1e-6 * std::max(std::fabs(*fixed), 1e-12))
         refuse(c.name, fmt::format("{} is outside the library, which has {} only", *stated, *fixed),
@@ -356,7 +368,7 @@ TableModel Emulator::model(const ReducedTable& table, const EmulatorOptions& opt
   std::map<const Channel*, std::vector<Index>> by_channel;
   for (Index i = 0; i < n; ++i) {
     const Channel& channel = channel_of(table, static_cast<std::size_t>(i));
-    check_row(channel, table, static_cast<std::size_t>(i), options, model.outside);
+    check_row(channel, table, static_cast<std::size_t>(i), options, model.outside, model.silent);
     by_channel[&channel].push_back(i);
     model.observed[i] = table.rows[i].value;
     model.relative[i] = channel.relative;
@@ -501,11 +513,11 @@ TableModel Emulator::model(const ReducedTable& table, const EmulatorOptions& opt
 std::map<std::pair<std::string, std::string>, LawDifference> Emulator::differences(
     const ReducedTable& law, const EmulatorOptions& options) const {
   std::map<std::pair<std::string, std::string>, std::map<std::string, Mean>> groups;
-  std::vector<std::string> ignored;
+  std::vector<std::string> outside, silent;
   for (std::size_t i = 0; i < law.rows.size(); ++i) {
     const Channel& channel = channel_of(law, i);
     if (!channel.log_seed_variance) continue;
-    check_row(channel, law, i, options, ignored);
+    check_row(channel, law, i, options, outside, silent);
     const Point p = channel.point(law.rows[i]);
     groups[{channel.apparatus, channel.observable}]
         .try_emplace(text_of(p), Mean{p, {}})

@@ -11,6 +11,7 @@
 // A table row is matched by apparatus, observable, conditions, wall and material (those that library states), not by
 // the name of its test. Errors: BadInput (file and line of the row) if the library lacks the observable, for another
 // wall or material or a fixed condition that differs, or for conditions outside the range, unless told to extrapolate.
+// A condition that no run of the library states cannot be compared: it is told, not refused.
 #pragma once
 
 #include <map>
@@ -81,8 +82,9 @@ class Emulator {
 
   Channel make_channel(const Library& library, const std::vector<const LibraryValue*>& values) const;
   const Channel& channel_of(const ReducedTable& table, std::size_t row) const;
+  // `outside`, `silent`: as in TableModel; silent ones once an observable.
   void check_row(const Channel& channel, const ReducedTable& table, std::size_t row, const EmulatorOptions& options,
-                 std::vector<std::string>& outside) const;
+                 std::vector<std::string>& outside, std::vector<std::string>& silent) const;
   void fill_effect(const Channel& channel, const Effect& effect, const std::vector<Eigen::Index>& rows,
                    TableModel& model, EffectResponse& response) const;
 

@@ -4,6 +4,7 @@
 #include <fmt/core.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
@@ -21,6 +22,12 @@ std::vector<DiscrepancyEntry> discrepancies_of(const Library& library) {
   return fs::exists(path) ? read_discrepancies(path.string()) : std::vector<DiscrepancyEntry>();
 }
 
+const InputFiles& existing(const InputFiles& files) {
+  if (!fs::is_directory(files.library))
+    throw BadInput(files.library, 0, "is no response library", "name a folder with design.csv, such as gap/library");
+  return files;
+}
+
 }  // namespace
 
 InputFiles InputFiles::completed() const {
@@ -32,25 +39,37 @@ InputFiles InputFiles::completed() const {
 }
 
 Inputs::Inputs(const InputFiles& asked)
-    : files(asked.completed()),
+    : files(existing(asked).completed()),
       settings(Settings::read(files.settings)),
       effects(read_effects(files.effects, settings)),
       library(Library::read(files.library, effects)),
       discrepancies(discrepancies_of(library)),
       emulator(library, effects, discrepancies) {}
 
-nlohmann::ordered_json Inputs::provenance() const {
+nlohmann::ordered_json Inputs::provenance(const std::vector<std::string>* only_effects) const {
   nlohmann::ordered_json p;
   p["versions"] = {{"vielto", "0.1.0"},
                    {"eigen", fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)}};
   std::vector<std::string> paths = library.files;
-  const std::string discrepancy = (fs::path(library.folder) / "discrepancy.csv").string();
-  if (fs::exists(discrepancy)) paths.push_back(discrepancy);
+  for (const char* name : {"discrepancy.csv", "inputs.csv"})
+    if (const fs::path path = fs::path(library.folder) / name; fs::exists(path)) paths.push_back(path.string());
   paths.push_back(files.settings);
-  for (const Effect& e : effects) paths.push_back(e.path);
+  for (const Effect& e : effects)
+    if (!only_effects || std::find(only_effects->begin(), only_effects->end(), e.name) != only_effects->end())
+      paths.push_back(e.path);
   for (const std::string& path : paths) p["hashes"][fs::path(path).filename().string()] = sha256_of_file(path);
   p["library_runs"] = library.runs.size();
   return p;
+}
+
+std::string rows_fingerprint(const std::vector<Observation>& rows, const Eigen::MatrixXd& noise) {
+  std::string text;
+  for (const Observation& row : rows)
+    text += fmt::format("{} {} {} {:.6g}|", row.apparatus, row.observable, conditions_text(row), row.u);
+  for (Eigen::Index i = 0; i < noise.rows(); ++i)
+    for (Eigen::Index j = 0; j < i; ++j)
+      if (noise(i, j) != 0) text += fmt::format("{} {} {:.6g}|", i, j, noise(i, j));
+  return sha256_of_text(text);
 }
 
 ReducedTable only_rows(ReducedTable table, const std::vector<std::string>& only) {
@@ -60,8 +79,10 @@ ReducedTable only_rows(ReducedTable table, const std::vector<std::string>& only)
     bool kept = true;
     for (const std::string& text : only) {
       const auto equals = text.find('=');
-      const std::string name = text.substr(0, equals),
-                        value = equals == std::string::npos ? "" : text.substr(equals + 1);
+      if (equals == std::string::npos)
+        throw BadInput("--only " + text, 0, "states no value",
+                       "write wall=NAME, material=NAME, apparatus=NAME or speed=NUMBER");
+      const std::string name = text.substr(0, equals), value = text.substr(equals + 1);
       const ConditionMember condition = condition_member(name);
       const auto number = finite_number(value);
       if (condition && number)

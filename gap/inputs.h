@@ -28,9 +28,14 @@ class Inputs {
   std::vector<DiscrepancyEntry> discrepancies;
   Emulator emulator;
 
-  // File names (without folders) and their SHA-256, the versions of the libraries used.
-  nlohmann::ordered_json provenance() const;
+  // File names (without folders) and their SHA-256, the versions of the libraries used. Of effect files those in
+  // `effects`, or all of them.
+  nlohmann::ordered_json provenance(const std::vector<std::string>* only_effects = nullptr) const;
 };
+
+// Of rows before any data: SHA-256 of conditions, u and covariance, not of values. What isolability.json was sealed
+// for.
+std::string rows_fingerprint(const std::vector<Observation>& rows, const Eigen::MatrixXd& noise);
 
 // Rows of a table that satisfy every CONDITION=VALUE of `only` (wall=B, apparatus=mixer, speed=1.21 ...), covariance
 // included. Errors: BadInput for a condition that is none, and if no row is left.

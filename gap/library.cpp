@@ -203,6 +203,9 @@ Library Library::read(const std::string& folder, const std::vector<Effect>& effe
   Library library;
   library.folder = folder;
   read_design(library, effects);
+  for (const char* name : {"inputs.csv", "effects.csv"})
+    if (!fs::exists(fs::path(folder) / name))
+      library.notes.push_back(fmt::format("the library has no {}: whether it is stale cannot be told", name));
   check_fresh(library);
   check_effects(library, effects);
   read_tables(library);

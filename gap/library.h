@@ -12,8 +12,8 @@
 // - posterior.csv: weight,PARAMETER... The calibrated family
 // - discrepancy.csv: what other contact laws do differently (discrepancy.h)
 // - sources.csv: test,source,torque_Nm (sources.h)
-// - inputs.csv: file,sha256. What the runs were made from, paths from the folder: if one has changed, the library is
-//   stale
+// - inputs.csv: file,sha256. What the runs were made from, and posterior.csv; paths from the folder: if one has
+//   changed, the library is stale
 // - effects.csv: effect,rig,changes. What the effects changed in each rig when their runs were made (Effect::changes);
 // if one
 //   changes something else now, the library is stale
@@ -60,6 +60,7 @@ struct Library {
   std::vector<LibraryValue> values;
   Family family;                   // 0 members: not given
   std::vector<std::string> files;  // everything read, for provenance
+  std::vector<std::string> notes;  // what cannot be checked
 
   static Library read(const std::string& folder, const std::vector<Effect>& effects);
 };

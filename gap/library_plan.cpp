@@ -13,6 +13,7 @@
 #include "bad_input.h"
 #include "columns.h"
 #include "condition.h"
+#include "library.h"
 #include "sha256.h"
 #include "sources.h"
 
@@ -119,7 +120,7 @@ void add_rig(LibraryPlan& plan, const TomlTable& t, const std::vector<Effect>& e
   std::vector<int> seeds_at;
   for (const TomlTable& c : tables_of(t, "conditions")) {
     conditions.push_back(common);
-    seeds_at.push_back(c.has("seeds") ? whole_of(c, "seeds", 1, 100) : seeds);
+    seeds_at.push_back(c.has("seeds") ? whole_of(c, "seeds", kLeastSeeds, 100) : seeds);
     for (const auto& [name, value] : numbers_by_name(c)) {
       if (name == "seeds") continue;
       const auto var = rig.vars.find(name);
@@ -199,7 +200,7 @@ LibraryPlan LibraryPlan::read(const std::string& path, const std::vector<Effect>
   const TomlTable file = TomlTable::read(path);
   file.only({"seeds", "family", "rig", "bench"});
   LibraryPlan plan;
-  const int seeds = whole_of(file, "seeds", 1, 100);
+  const int seeds = whole_of(file, "seeds", kLeastSeeds, 100);
   FamilyFile family;
   std::vector<std::size_t> members;  // rows of the file, from 0
   if (file.has("family")) {
@@ -348,6 +349,7 @@ Collected collect_library(const LibraryPlan& plan, const std::string& results, c
   if (!plan.bench.empty()) write_observations(path("bench.csv"), plan.bench);
   if (!plan.family_file.empty()) {
     fs::copy_file(plan.posterior_file, path("posterior.csv"), fs::copy_options::overwrite_existing);
+    inputs["posterior.csv"] = sha256_of_file(path("posterior.csv"));
     for (const std::string& file : {plan.posterior_file, plan.family_file})
       inputs[fs::relative(file, folder).string()] = sha256_of_file(file);
   }

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <map>
 
 namespace vielto::gap {
 namespace {
@@ -59,11 +61,12 @@ std::string map_of_the_gap(const json& where) {
         signed_bar(r["relative_gap"], full, found ? "#c0392b" : "#bbbbbb"), 100 * r["relative_gap"].get<double>(),
         100 * r["u"].get<double>(), mostly_from(r, 100, "{:.0f} %"), r["z"].get<double>(), r["q_value"].get<double>());
   }
-  return "<table><tr><th>observable</th><th>region</th><th>measured against "
-         "simulated</th><th>gap</th><th>u</th><th>u mostly from</th><th>z</th><th>q</th></tr>\n" +
+  return "<table><tr><th>observable</th><th>region</th><th>simulated against "
+         "measured</th><th>gap</th><th>u</th><th>u mostly from</th><th>z</th><th>q</th></tr>\n" +
          rows +
-         "</table>\n<p>u: relative standard uncertainty of measured over simulated, all that is uncertain included; z: "
-         "of its logarithm. Red: a gap, at a "
+         "</table>\n<p>Gap: simulated over measured, less 1. u: its relative standard uncertainty, all that is "
+         "uncertain "
+         "included; z: of its logarithm. Red: a gap, at a "
          "false-discovery rate of 5 %. Grey: a gap smaller than about twice its u cannot be told from nothing.</p>\n";
 }
 
@@ -123,23 +126,47 @@ std::string trends_found(const json& trends, const char* words) {
 }
 
 // Where in the machine the simulated torque arises, and where the effects change it.
-std::string sources_rows(const json& sources, const std::string& kind) {
-  std::string rows;
+std::string percent(double share) {
+  const double whole = std::round(100 * share);
+  return fmt::format("{:.0f} %", whole == 0 ? 0.0 : whole);  // no -0
+}
+
+// A row a source, a column a condition; in the cells the shares, and what the effects in question change.
+std::string sources_of_kind(const json& sources, const std::string& kind) {
+  std::vector<std::string> conditions, names;
+  std::map<std::pair<std::string, std::string>, std::string> cells;
+  const auto place = [](std::vector<std::string>& all, const std::string& name) {
+    if (std::find(all.begin(), all.end(), name) == all.end()) all.push_back(name);
+  };
   for (const json& s : sources) {
     if (s["kind"] != kind) continue;
-    std::string changes;
+    const std::string condition =
+        fmt::format("{:g} 1/s, l = {:g}", s["speed"].is_null() ? 0.0 : s["speed"].get<double>(),
+                    s["fill"].is_null() ? 0.0 : s["fill"].get<double>());
+    const std::string name = s["source"];
+    place(conditions, condition);
+    place(names, name);
+    std::string cell = percent(s["share"].get<double>());
     for (const json& e : s["effects"])
-      changes += fmt::format("{}{} at {:.3g}: {:+.0f} &plusmn; {:.0f} %", changes.empty() ? "" : "; ",
-                             escaped(e["name"].get<std::string>()), e["strength"].get<double>(),
-                             100 * e["change"].get<double>(), 100 * e["u"].get<double>());
-    rows += fmt::format(
-        "<tr><td class=n>{:g}</td><td class=n>{:g}</td><td>{}</td><td>{}</td><td class=n>{:.0f} "
-        "%</td><td>{}</td></tr>\n",
-        s["speed"].is_null() ? 0.0 : s["speed"].get<double>(), s["fill"].is_null() ? 0.0 : s["fill"].get<double>(),
-        escaped(s["source"].get<std::string>()), bar(std::fabs(s["share"].get<double>()), "#8a6fbf"),
-        100 * s["share"].get<double>(), changes);
+      cell += fmt::format("<br><small>{} at {:.3g}: {:+.0f} &plusmn; {:.0f} %</small>",
+                          escaped(e["name"].get<std::string>()), e["strength"].get<double>(),
+                          100 * e["change"].get<double>(), 100 * e["u"].get<double>());
+    cells[{name, condition}] = cell;
   }
-  return rows;
+  if (names.empty()) return "";
+  if (kind == "phase")
+    std::sort(names.begin(), names.end(),
+              [](const std::string& x, const std::string& y) { return std::atof(x.c_str()) < std::atof(y.c_str()); });
+  std::string text = "<table><tr><th>source</th>";
+  for (const std::string& condition : conditions) text += fmt::format("<th class=n>{}</th>", condition);
+  text += "</tr>\n";
+  for (const std::string& name : names) {
+    text += fmt::format("<tr><td>{}</td>", escaped(name));
+    for (const std::string& condition : conditions)
+      text += fmt::format("<td class=n>{}</td>", cells[{name, condition}]);
+    text += "</tr>\n";
+  }
+  return text + "</table>\n";
 }
 
 std::string sources_table(const json& sources) {
@@ -152,12 +179,8 @@ std::string sources_table(const json& sources) {
                   "The paddles' torque by the place of a paddle in its turn; 0 deg is the lowest point, from "
                   "which it rises."),
         std::pair("loss", "Where the work goes: dashpots (normal, tangential), sliding, rolling, twisting.")}) {
-    const std::string rows = sources_rows(sources, kind);
-    if (rows.empty()) continue;
-    text += fmt::format(
-        "<p>{}</p>\n<table><tr><th>speed</th><th>fill</th><th>source</th><th></th><th>share</th><th>change with the "
-        "effect, of the whole</th></tr>\n{}</table>\n",
-        words, rows);
+    if (const std::string table = sources_of_kind(sources, kind); !table.empty())
+      text += fmt::format("<p>{}</p>\n{}", words, table);
   }
   return text;
 }
@@ -172,6 +195,20 @@ std::string ranking(const json& probabilities) {
                         models[i].second == "no_gap" ? "no gap" : escaped(models[i].second),
                         bar(models[i].first, "#2c6fbb"), 100 * models[i].first);
   return "<table>" + rows + "</table>\n";
+}
+
+// Of an ambiguous group: how strong each would have to be.
+std::string strengths_table(const json& strengths) {
+  std::string rows;
+  for (const auto& [name, s] : strengths.items()) {
+    const std::string unit = s["unit"];
+    rows += fmt::format("<tr><td>{}</td><td class=n>{:.3g}{}</td><td class=n>{:.3g} &hellip; {:.3g}</td></tr>\n",
+                        escaped(name), s["value"].get<double>(), unit == "1" ? "" : " " + unit,
+                        s["low90"].get<double>(), s["high90"].get<double>());
+  }
+  return "<p>If it is the one, its strength is</p>\n<table><tr><th>effect</th><th class=n>strength</th><th class=n>90 "
+         "%</th></tr>\n" +
+         rows + "</table>\n";
 }
 
 std::string before_and_after(const json& shrink, const std::string& how, bool effect_known) {
@@ -191,9 +228,11 @@ std::string before_and_after(const json& shrink, const std::string& how, bool ef
   }
   return fmt::format(
       "<p>Root-mean-square gap on {} check tests, {}, measurement noise taken out. Closed: {:.0f} % (90 %: {:.0f} to "
-      "{:.0f} %).</p>\n<table>{}</table>\n",
+      "{:.0f} %, from the noise of measurement and simulation{}).</p>\n<table>{}</table>\n",
       shrink["tests"].get<int>(), how, 100 * shrink["closed"]["value"].get<double>(),
-      100 * shrink["closed"]["low90"].get<double>(), 100 * shrink["closed"]["high90"].get<double>(), rows);
+      100 * shrink["closed"]["low90"].get<double>(), 100 * shrink["closed"]["high90"].get<double>(),
+      shrink["tests"].get<int>() < 5 ? "; so few tests say nothing about others" : " and from which tests there are",
+      rows);
 }
 
 }  // namespace
@@ -208,14 +247,20 @@ std::string diagnosis_page(const json& d, const std::string& title) {
       "#2c6fbb;"
       "padding-left:.7em}}</style></head><body>\n<h1>{0}</h1>\n<p class=\"verdict\">{1}</p>\n",
       escaped(title), escaped(d["sentence"].get<std::string>()));
-  page += fmt::format("<p>{:.0f} % of the gap could be absorbed by recalibration, {:.0f} % needs something new.</p>\n",
-                      100 * d["absorbable_by_recalibration"].get<double>(),
-                      100 - 100 * d["absorbable_by_recalibration"].get<double>());
+  const double absorbable = 100 * d["absorbable_by_recalibration"].get<double>();
+  page += d["verdict"] == "no_gap"
+              ? fmt::format(
+                    "<p>{:.0f} % of the difference that is seen lies within what recalibration could take up.</p>\n",
+                    absorbable)
+              : fmt::format(
+                    "<p>{:.0f} % of the gap could be absorbed by recalibration, {:.0f} % needs something new.</p>\n",
+                    absorbable, 100 - absorbable);
   page += close_call(d["log_odds"]);
   if (d["verdict"] == "no_gap") page += trends_found(d["trends"], "But a trend is off") + without_a_gap(d["where"]);
   if (d["verdict"] == "unknown") page += trends_found(d["trends"], "What is off is a trend");
   page += "<h2>Where</h2>\n" + map_of_the_gap(d["where"]) + trends_table(d["trends"]);
   page += "<h2>Which effect</h2>\n" + ranking(d["probabilities"]);
+  if (d["verdict"] == "ambiguous") page += strengths_table(d["strength"]);
   page += "<h2>How far the gap closes</h2>\n";
   if (!d["shrink"].is_null()) page += before_and_after(d["shrink"], "simulated again", d["verdict"] != "unknown");
   if (!d["shrink_predicted"].is_null())

@@ -88,7 +88,7 @@ Location locate(const TableModel& model) {
   Location location;
   location.regions = regions_of(model.rows);
   const VectorXd scale = model.scale.unaryExpr([](double x) { return x > 0 ? x : 1; });
-  const VectorXd gap = model.gap().cwiseQuotient(scale);
+  const VectorXd gap = -model.gap().cwiseQuotient(scale);  // model.gap() is measured less simulated
   const auto relative = [&](const MatrixXd& covariance) {
     return MatrixXd(scale.cwiseInverse().asDiagonal() * covariance * scale.cwiseInverse().asDiagonal());
   };

@@ -5,10 +5,11 @@
 // fast", "low, middle, high fill") and likewise of its other conditions ("high tilt") where it has more than one. In a
 // region the mean relative gap by generalised least squares,
 //   m = (1' V^-1 g)/(1' V^-1 1), z = m sqrt(1' V^-1 1),
-// g the relative gap of its rows (rows in logarithms: ln(y/f), and exp(m) - 1 is told), V its covariance without any
-// effect. p = 2 (1 - Phi(|z|)). V is a sum, and so is u^2 = a' V a, a = V^-1 1/(1' V^-1 1): what each summand adds
-// tells what to know better for a smaller gap to be seen. q value: Benjamini and Hochberg 1995 if the z's are
-// independent, Benjamini and Yekutieli 2001 (factor sum 1/i) if any two are correlated by more than 0.1 in magnitude.
+// g the relative gap of its rows, above 0 where the simulation shows too much (rows in logarithms: ln(f/y), and
+// exp(m) - 1 is told: simulated over measured, less 1), V its covariance without any effect. p = 2 (1 - Phi(|z|)). V is
+// a sum, and so is u^2 = a' V a, a = V^-1 1/(1' V^-1 1): what each summand adds tells what to know better for a smaller
+// gap to be seen. q value: Benjamini and Hochberg 1995 if the z's are independent, Benjamini and Yekutieli 2001 (factor
+// sum 1/i) if any two are correlated by more than 0.1 in magnitude.
 #pragma once
 
 #include <string>

@@ -51,7 +51,7 @@ SimulatedValues simulated_values(const Inputs& inputs, const std::vector<Observa
   table.covariance.setIdentity();
   const TableModel m =
       inputs.emulator.model(table, options, inputs.settings).in_logarithms(TableModel::NoiseOver::baseline);
-  SimulatedValues result{{}, m.outside};
+  SimulatedValues result{{}, m.outside, m.silent};
   for (Eigen::Index i = 0; i < n; ++i) {
     const bool logarithmic = m.logarithmic[i] != 0;
     const auto from = [&](double x) { return logarithmic ? std::exp(x) : x; };

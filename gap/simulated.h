@@ -36,6 +36,7 @@ std::vector<Observation> combinations(const std::string& apparatus, const std::s
 struct SimulatedValues {
   std::vector<SimulatedValue> values;
   std::vector<std::string> outside;  // of the library's conditions, where the options allow it
+  std::vector<std::string> silent;   // conditions that the library does not know
 };
 
 SimulatedValues simulated_values(const Inputs& inputs, const std::vector<Observation>& rows, EmulatorOptions options);

@@ -60,6 +60,7 @@ struct TableModel {
   std::vector<EffectResponse> effects;
   std::vector<std::string> notes;    // what a reader must know
   std::vector<std::string> outside;  // rows outside the library's conditions, where that is allowed
+  std::vector<std::string> silent;   // conditions of rows that no run of the library states
 
   Eigen::Index size() const { return observed.size(); }
   // C(0): all that is uncertain without an effect.

@@ -9,6 +9,8 @@
 #include <fstream>
 #include <stdexcept>
 
+#include "bad_input.h"
+
 namespace vielto {
 
 void split_fields(std::string_view line, std::vector<std::string_view>& fields) {
@@ -17,6 +19,18 @@ void split_fields(std::string_view line, std::vector<std::string_view>& fields) 
   for (std::size_t comma; (comma = line.find(',')) != std::string_view::npos; line.remove_prefix(comma + 1))
     fields.push_back(line.substr(0, comma));
   fields.push_back(line);
+}
+
+std::string open_table(std::ifstream& in, const std::string& path) {
+  if (std::filesystem::is_directory(path)) throw BadInput(path, 0, "is a folder", "name a file in it");
+  in.open(path, std::ios::binary);
+  if (!in) throw BadInput(path, 0, "cannot be read", "name an existing file");
+  std::string line;
+  if (!std::getline(in, line)) throw BadInput(path, 0, "is empty", "write a header line and rows below it");
+  if (line.compare(0, 3, "\xEF\xBB\xBF") == 0)
+    throw BadInput(path, 1, "begins with a byte-order mark", "save it as UTF-8 without one");
+  if (!line.empty() && line.back() == '\r') line.pop_back();
+  return line;
 }
 
 std::optional<double> finite_number(std::string_view field) {

@@ -2,6 +2,7 @@
 // What the CSV files of this project share: comma separated, no quotes, decimal point, UTF-8.
 #pragma once
 
+#include <iosfwd>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -12,6 +13,10 @@ namespace vielto {
 // Splits one line at its commas; an empty line is one empty field. A trailing '\r' is not part of the last field.
 // The views point into `line`.
 void split_fields(std::string_view line, std::vector<std::string_view>& fields);
+
+// Opens a text table and reads its header line, without the line's end.
+// Errors: BadInput for what is no readable file, a folder, an empty file, or one that begins with a byte-order mark.
+std::string open_table(std::ifstream& in, const std::string& path);
 
 // A finite decimal number that fills the whole field (1, -2.5, 3e-4), whatever the locale; otherwise nothing.
 std::optional<double> finite_number(std::string_view field);

@@ -107,7 +107,7 @@ class TableCheck {
       place.refuse("unit", fmt::format("'{}' is not the unit of {}", row.unit, row.observable),
                    fmt::format("state the value in '{}'", *unit));
     if (!std::isfinite(row.value)) place.refuse("value", "is not finite", "state a finite value");
-    if (!(row.u > 0) || !std::isfinite(row.u))
+    if (!(row.u * row.u > 0) || !(row.u > 0) || !std::isfinite(row.u * row.u))
       place.refuse("u", fmt::format("{} is no standard uncertainty", row.u), "state one above 0");
     for (const Condition& c : kConditions) {
       const auto& value = row.*c.member;
@@ -156,11 +156,8 @@ class TableCheck {
 // Calls `use(place, fields)` for each row below the header; refuses another header and rows of another length.
 template <class Use>
 void read_rows(const std::string& path, const std::string& header, Use use) {
-  std::ifstream in(path, std::ios::binary);
-  if (!in) throw BadInput(path, 0, "cannot be read", "name an existing file");
-  std::string line;
-  std::getline(in, line);
-  if (!line.empty() && line.back() == '\r') line.pop_back();
+  std::ifstream in;
+  std::string line = open_table(in, path);
   if (line != header) throw BadInput(path, 1, "has another header", fmt::format("write exactly '{}'", header));
   std::vector<std::string_view> names, fields;
   split_fields(header, names);

@@ -222,6 +222,33 @@ TEST_F(GapBlind, ATamperedTruthIsRefused) {
   std::ofstream(folder_ / "blind/truth/0002.json") << truth;
 }
 
+// A seal is for its own rows, and an answer for its own seal.
+TEST_F(GapBlind, RefusesTheSealOfOtherRows) {
+  ASSERT_EQ(status_, 0) << output_;
+  std::string tests = content(folder_ / "tests.csv");
+  const auto at = tests.find("W,", tests.find('\n'));  // the first u
+  tests.insert(tests.rfind(',', at - 2) + 1, "1");
+  std::ofstream(folder_ / "other.csv") << tests;
+  EXPECT_EQ(run(fmt::format("cd '{}' && gap-withhold --library gap/library --truth truth/0 --tests other.csv --sealed "
+                            "sealed/isolability.json --plan '{}/gap/blind/plan.toml' --out other",
+                            folder_.string(), VIELTO_SOURCE_DIR)),
+            2);
+  EXPECT_NE(output_.find("was sealed for other rows than those of other.csv"), std::string::npos) << output_;
+  EXPECT_FALSE(fs::exists(folder_ / "other"));
+  const fs::path path = folder_ / "answers/0001/diagnosis.json";
+  const std::string answer = content(path);
+  json other = json::parse(answer);
+  other["provenance"]["without"] = json::array();
+  other["provenance"]["fingerprint"] = "0";
+  std::ofstream(path) << other;
+  EXPECT_EQ(
+      run(fmt::format("cd '{}' && gap-score blind --answers answers --sealed sealed/isolability.json --out again.json",
+                      folder_.string())),
+      2);
+  EXPECT_NE(output_.find("0001/diagnosis.json: was made for other rows"), std::string::npos) << output_;
+  std::ofstream(path) << answer;
+}
+
 TEST_F(GapBlind, CasesSayNothingOfTheTruth) {
   ASSERT_EQ(status_, 0) << output_;
   for (const auto& entry : fs::directory_iterator(folder_ / "blind/cases")) {

@@ -383,6 +383,15 @@ TEST_F(GapCommand, IsolabilityIsSealedAndItsThresholdIsTaken) {
   const json d = json::parse(content(folder_ / "answer/diagnosis.json"));
   EXPECT_EQ(d["log_odds"]["threshold"], i["threshold"]["log_odds"]);
   fs::remove_all(folder_ / "answer");
+  // nor do correlations stay unseen, nor a threshold of few draws
+  std::ofstream(folder_ / "covariance.csv")
+      << "test_a,observable_a,test_b,observable_b,covariance\n"
+      << fmt::format("{},power,{},power,{}\n", rows_[0].test, rows_[2].test, 0.5 * rows_[0].u * rows_[2].u);
+  expect_refusal("was sealed for other rows, u, correlations", "--sealed sealed/isolability.json");
+  fs::remove(folder_ / "covariance.csv");
+  ASSERT_EQ(gap("diagnose t.csv --library library --out answer --sealed sealed/isolability.json"), 0) << err_;
+  EXPECT_NE(out_.find("note: the threshold rests on 100 draws, not on the settings' 1000"), std::string::npos) << out_;
+  fs::remove_all(folder_ / "answer");
   rows_[0].u *= 2;
   write(rows_);
   expect_refusal("was sealed for other rows", "--sealed sealed/isolability.json");
@@ -446,6 +455,153 @@ TEST_F(GapCommand, ConfirmPrintsTheCommandsOfEveryCheckTest) {
     with_effect += after;
   }
   EXPECT_EQ(with_effect, 3);
+}
+
+// The names of a test go into a run folder's name, and no further.
+TEST_F(GapCommand, ConfirmHandsNoTestsNameToAShell) {
+  keep_mixer_checks();
+  for (Observation& row : rows_)
+    if (row.role == "check") row.test += fmt::format(";touch {};b it's 7", (folder_ / "touched").string());
+  write(rows_);
+  fs::create_directory(folder_ / "bin");
+  std::ofstream(folder_ / "bin/liggghts")
+      << "#!/bin/sh\nprintf '%s|' \"$@\" >>" << (folder_ / "seen.txt").string() << "\nexit 1\n";
+  fs::permissions(folder_ / "bin/liggghts", fs::perms::owner_all);
+  const std::string path = std::getenv("PATH");
+  setenv("PATH", ((folder_ / "bin").string() + ":" + path).c_str(), 1);
+  const std::string confirm = "confirm t.csv --library library --draws 100 --out answer --root " VIELTO_SOURCE_DIR;
+  EXPECT_EQ(gap(confirm + " --run"), 1) << out_;
+  setenv("PATH", path.c_str(), 1);
+  EXPECT_NE(err_.find("a run failed, see "), std::string::npos) << err_;
+  EXPECT_FALSE(fs::exists(folder_ / "touched"));
+  const std::string seen = content(folder_ / "seen.txt");
+  EXPECT_EQ(seen.rfind("-in|in.mixer|-var|speed|", 0), 0u) << seen;
+  EXPECT_NE(seen.find("|-var|run|" + (folder_ / "answer/runs").string() + "/"), std::string::npos) << seen;
+  EXPECT_EQ(seen.find("touch "), std::string::npos) << seen;
+  fs::remove_all(folder_ / "answer");
+  // LIGGGHTS itself would split a path at its blanks
+  EXPECT_EQ(gap(confirm + " --runs 'my runs'"), 2) << out_;
+  expect_one_line("my runs: has a blank");
+}
+
+// Runs have the settings of the library's own; further ones must be known.
+TEST_F(GapCommand, ConfirmRunsWhatTheLibraryIsMadeOf) {
+  keep_mixer_checks();
+  const std::string confirm = "confirm t.csv --library library --draws 100 --out answer --root " VIELTO_SOURCE_DIR;
+  ASSERT_EQ(gap(confirm), 0) << err_;
+  EXPECT_EQ(out_.find("-var grainDiameter"), std::string::npos) << out_;
+  EXPECT_NE(err_.find("note: the library has no plan.toml"), std::string::npos) << err_;
+  std::ofstream(folder_ / "library/plan.toml")
+      << "seeds = 6\n[[rig]]\nname = \"mixer\"\nsettings = {grainDiameter = \"0.012\", turns = \"5\"}\n"
+         "[[rig]]\nname = \"repose\"\nsettings = {base = \"rough\"}\n";
+  for (const auto& [options, expected] :
+       {std::pair("", "-var turns 5 "), std::pair(" --var turns=14", "-var turns 14 ")}) {
+    ASSERT_EQ(gap(confirm + options), 0) << err_;
+    EXPECT_EQ(err_.find("plan.toml"), std::string::npos) << err_;
+    std::istringstream lines(out_);
+    for (std::string line; std::getline(lines, line);) {
+      EXPECT_NE(line.find("-var grainDiameter 0.012 "), std::string::npos) << line;
+      EXPECT_NE(line.find(expected), std::string::npos) << line;
+      EXPECT_EQ(line.find("-var base "), std::string::npos) << line;
+    }
+  }
+  for (const auto& [setting, part] : {std::pair("turn=3", "--var turn=3: is no parameter"),
+                                      std::pair("grainDiameter=big", "--var grainDiameter=big: is no number")}) {
+    EXPECT_EQ(gap(confirm + " --var " + setting), 2) << out_;
+    expect_one_line(part);
+  }
+}
+
+// A bench row is simulated by no rig: nothing would be measured.
+TEST_F(GapCommand, ConfirmWantsACheckRowThatCanBeSimulated) {
+  for (Observation& row : rows_) row.role = "fit";
+  Observation bench = rows_[0];
+  bench.test = "plate", bench.role = "check", bench.apparatus = "bench", bench.observable = "restitution",
+  bench.unit = "1";
+  bench.value = 0.6, bench.u = 0.03;
+  bench.speed.reset(), bench.fill.reset();
+  rows_.push_back(bench);
+  write(rows_);
+  EXPECT_EQ(gap("confirm t.csv --library library --draws 100 --out answer --run --root " VIELTO_SOURCE_DIR), 2) << out_;
+  EXPECT_FALSE(fs::exists(folder_ / "answer"));
+}
+
+TEST_F(GapCommand, AConditionThatTheLibraryDoesNotKnowIsTold) {
+  for (Observation& row : rows_) row.moisture = 0.3;
+  rows_[0].tilt = rows_[1].tilt = 45;
+  rows_[0].wall = rows_[1].wall = "rubber";
+  write(rows_);
+  ASSERT_EQ(diagnose(), 0) << err_;
+  const json d = json::parse(content(folder_ / "answer/diagnosis.json"));
+  const std::string notes = d["notes"].dump();
+  for (const char* note :
+       {"mixer power: moisture 0.3 is not accounted for", "mixer power: tilt 45 is not accounted for",
+        "mixer power: wall 'rubber' is not accounted for", "repose angle: moisture 0.3 is not"})
+    EXPECT_NE(notes.find(note), std::string::npos) << note << "\n" << notes;
+  EXPECT_NE(content(folder_ / "answer/diagnosis.html").find("moisture 0.3 is not accounted for"), std::string::npos);
+  ASSERT_EQ(diagnose("--ignore moisture,tilt,wall"), 0) << err_;
+  EXPECT_EQ(out_.find("accounted for"), std::string::npos) << out_;
+  ASSERT_EQ(gap("predict --library library --speed 1 --fill 0.2 --moisture 0.3"), 0) << err_;
+  EXPECT_NE(out_.find("moisture 0.3 is not accounted for"), std::string::npos) << out_;
+}
+
+TEST_F(GapCommand, RefusesFilesThatAreNoTables) {
+  const std::string table = content(folder_ / "t.csv");
+  std::ofstream(folder_ / "t.csv", std::ios::binary) << "\xEF\xBB\xBF" << table;
+  expect_refusal("t.csv, line 1: begins with a byte-order mark");
+  std::ofstream(folder_ / "t.csv", std::ios::trunc) << "";
+  expect_refusal("t.csv: is empty");
+  fs::remove(folder_ / "t.csv");
+  fs::create_directory(folder_ / "t.csv");
+  expect_refusal("t.csv: is a folder");
+  fs::remove(folder_ / "t.csv");
+  write(rows_);
+  replace_in(folder_ / "t.csv", fmt::format(",{},W", rows_[0].u), ",1e-320,W");
+  expect_refusal("t.csv, line 2, column u: ");
+  write(rows_);
+  EXPECT_EQ(gap("diagnose t.csv --library nolib --out answer"), 2);
+  expect_one_line("nolib: is no response library");
+}
+
+// Said before the work, and nothing is left behind.
+TEST_F(GapCommand, RefusesAPlaceThatCannotBeWritten) {
+  std::ofstream(folder_ / "file") << "a file";
+  EXPECT_EQ(gap("diagnose t.csv --library library --draws 100 --out file/answer"), 2);
+  expect_one_line("file: is no folder");
+  fs::create_directories(folder_ / "answer/diagnosis.html");
+  EXPECT_EQ(diagnose(), 2);
+  expect_one_line("diagnosis.html: is a folder");
+  EXPECT_FALSE(fs::exists(folder_ / "answer/diagnosis.json"));
+}
+
+TEST_F(GapCommand, RefusesOptionsThatMeanNothing) {
+  for (const char* options : {"--ignore colour", "--ignore wall,foo", "--runs-per-observation nan", "--seed -1"})
+    EXPECT_EQ(diagnose(options), 2) << options;
+  expect_refusal("--only wall: states no value", "--only wall");
+  EXPECT_EQ(gap("predict --library library --speed nan --fill 0.2"), 2);
+  EXPECT_FALSE(fs::exists(folder_ / "answer"));
+}
+
+// What cannot be checked is said; a family that was cut short is refused.
+TEST_F(GapCommand, ALibrarySaysWhetherItIsWhole) {
+  ASSERT_EQ(diagnose(), 0) << err_;
+  EXPECT_NE(out_.find("note: the library has no inputs.csv"), std::string::npos) << out_;
+  fs::remove_all(folder_ / "answer");
+  const std::string posterior = content(folder_ / "library/posterior.csv");
+  const std::string list = fmt::format(
+      "cd '{}/library' && printf 'file,sha256\\nposterior.csv,%s\\n' $(sha256sum posterior.csv | cut -d ' ' -f 1) > "
+      "inputs.csv",
+      folder_.string());
+  ASSERT_EQ(std::system(list.c_str()), 0);
+  ASSERT_EQ(diagnose(), 0) << err_;
+  EXPECT_EQ(out_.find("inputs.csv"), std::string::npos) << out_;
+  fs::remove_all(folder_ / "answer");
+  std::ofstream(folder_ / "library/posterior.csv")
+      << posterior.substr(0, posterior.find('\n', posterior.size() / 2) + 1);
+  expect_refusal("inputs.csv, line 2, column sha256: the library is stale: 'posterior.csv'");
+  std::ofstream(folder_ / "library/posterior.csv") << posterior;
+  std::ofstream(folder_ / "library/discrepancy.csv", std::ios::app) << "mixer,power,0.5,0.8,1,3\n";
+  expect_refusal("discrepancy.csv, line 6, column observable: mixer power is stated twice");
 }
 
 // A known effect is in every run, and no candidate; bad statements of it are refused.

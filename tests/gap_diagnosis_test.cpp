@@ -229,18 +229,62 @@ TEST_F(GapDiagnosis, WhatTheFamilyCanDoIsAbsorbable) {
   EXPECT_EQ(absorbable_part(fit, Eigen::VectorXd::Zero(fit.size())), 0);
 }
 
+namespace {
+
+CheckRows check_rows(int tests, double u) {
+  CheckRows rows{Eigen::VectorXd::Ones(tests), Eigen::MatrixXd::Identity(tests, tests) * u * u, {}};
+  for (int t = 0; t < tests; ++t) rows.tests.push_back(std::to_string(t));
+  return rows;
+}
+
+SimulatedRows simulated_rows(int tests, double value, double u = 0) {
+  return {Eigen::VectorXd::Constant(tests, value), Eigen::VectorXd::Constant(tests, u)};
+}
+
+}  // namespace
+
 // Closed forms of the shrink: observed 1, u 0; gaps of 10 %, 8 %, 2 %, 9 % on every row.
 TEST_F(GapDiagnosis, ShrinkByHand) {
-  const auto all = [](double x) { return Eigen::VectorXd::Constant(5, x); };
-  const Shrink s = shrink_of(all(1), all(1e-12), all(1.1), all(1.08), all(1.02), all(1.09), 5);
+  const auto all = [](double x) { return simulated_rows(5, x); };
+  const Shrink s = shrink_of(check_rows(5, 1e-12), all(1.1), all(1.08), all(1.02), all(1.09));
+  EXPECT_EQ(s.tests, 5);
   EXPECT_NEAR(s.before, 0.1, 1e-9);
   EXPECT_NEAR(s.recalibrated, 0.08, 1e-9);
   EXPECT_NEAR(s.after, 0.02, 1e-9);
   EXPECT_NEAR(s.placebo, 0.09, 1e-9);
   EXPECT_NEAR(s.closed.value, 0.8, 1e-9);
   EXPECT_NEAR(s.closed.low90, 0.8, 1e-9);
-  // u of 6 % in a gap of 10 % leaves 8 %.
-  EXPECT_NEAR(shrink_of(all(1), all(0.06), all(1.1), all(1.1), all(1.1), all(1.1), 5).before, 0.08, 1e-9);
+  // u of 6 % in a gap of 10 % leaves 8 %; of 20 % nothing, and the square says by how much
+  EXPECT_NEAR(shrink_of(check_rows(5, 0.06), all(1.1), all(1.1), all(1.1), all(1.1)).before, 0.08, 1e-9);
+  const Shrink noisy = shrink_of(check_rows(5, 0.2), all(1.1), all(1.1), all(1.1), all(1.1));
+  EXPECT_EQ(noisy.before, 0);
+  EXPECT_NEAR(noisy.before2, 0.01 - 0.04, 1e-12);
+}
+
+// One test, a gap of 40 %, after it 20 % with u of 0.5 %: closed is 1 - (20 +- 0.5)/40, so +- 1.25 % (k = 1). It had no
+// width at all when the rows alone were redrawn. With u of 1 % of the measurement, the same in both: d closed =
+// 1.2/0.4 e - 1.4 0.2/0.16 e = 1.25 e.
+TEST_F(GapDiagnosis, TheIntervalOfAShrinkHoldsTheNoiseOfMeasurementAndSimulation) {
+  const auto before = simulated_rows(1, 1.4);
+  const Shrink s = shrink_of(check_rows(1, 1e-9), before, before, simulated_rows(1, 1.2, 0.005), before);
+  EXPECT_NEAR(s.closed.value, 0.5, 1e-9);
+  // 4000 draws know a 5 % quantile to 3.3 % of the sd: three of these, and 1e-4 of second order
+  const double tolerance = 3 * 0.033 * 0.0125 + 1e-4;
+  EXPECT_NEAR(s.closed.low90, 0.5 - 1.645 * 0.0125, tolerance);
+  EXPECT_NEAR(s.closed.high90, 0.5 + 1.645 * 0.0125, tolerance);
+  const Shrink measured = shrink_of(check_rows(1, 0.01), before, before, simulated_rows(1, 1.2), before);
+  EXPECT_NEAR(measured.closed.high90 - measured.closed.low90, 2 * 1.645 * 1.25 * 0.01, 0.07 * 2 * 1.645 * 0.0125);
+  // fewer than five tests are not resampled: they say nothing about other tests
+  CheckRows two = check_rows(2, 1e-9);
+  SimulatedRows apart = simulated_rows(2, 1.2);
+  apart.value[1] = 1.3;
+  EXPECT_NEAR(shrink_of(two, simulated_rows(2, 1.4), apart, apart, apart).closed.low90,
+              shrink_of(two, simulated_rows(2, 1.4), apart, apart, apart).closed.value, 1e-6);
+  CheckRows six = check_rows(6, 1e-9);
+  apart = simulated_rows(6, 1.2);
+  apart.value.tail(3).setConstant(1.3);
+  const Shrink wide = shrink_of(six, simulated_rows(6, 1.4), apart, apart, apart);
+  EXPECT_LT(wide.closed.low90, wide.closed.value - 0.03);
 }
 
 // A drum at two tilts has a region for each, since the gap may lie in one of them only.

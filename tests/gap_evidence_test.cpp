@@ -202,8 +202,8 @@ TEST(GapRegions, BenjaminiHochbergByHand) {
   EXPECT_NEAR(q_values({0.04, 0.001}, false)[1], 0.002, 1e-12);
 }
 
-// Two rows 1 and 2 over a baseline of 10 with noise of 0.5 each, and 0.3 that both share: the mean gap is 15 % with
-// u^2 = 5 %^2/2 + 3 %^2, to which the noise and the shared part add those two terms.
+// Two rows 1 and 2 over a baseline of 10 with noise of 0.5 each, and 0.3 that both share: the simulation shows 15 %
+// less with u^2 = 5 %^2/2 + 3 %^2, to which the noise and the shared part add those two terms.
 TEST(GapRegions, TellWhatTheirUncertaintyComesFrom) {
   VectorXd y(2);
   y << 11, 12;
@@ -214,7 +214,7 @@ TEST(GapRegions, TellWhatTheirUncertaintyComesFrom) {
   const Location location = locate(m);
   ASSERT_EQ(location.regions.size(), 1u);
   const Region& r = location.regions[0];
-  EXPECT_NEAR(r.relative_gap, 0.15, 1e-12);
+  EXPECT_NEAR(r.relative_gap, -0.15, 1e-12);
   EXPECT_NEAR(r.u, std::sqrt(0.05 * 0.05 / 2 + 0.03 * 0.03), 1e-12);
   const std::map<std::string, double> parts(r.u_parts.begin(), r.u_parts.end());
   EXPECT_NEAR(parts.at("measurement"), 0.05 / std::sqrt(2.0), 1e-12);
@@ -222,8 +222,8 @@ TEST(GapRegions, TellWhatTheirUncertaintyComesFrom) {
   for (const char* none : {"seeds", "emulator", "contact law"}) EXPECT_EQ(parts.at(none), 0) << none;
 }
 
-// Measured over simulated 0.8 and 0.8 with relative noise of 5 % each: the gap told is -20 %, z is ln 0.8 over 5
-// %/sqrt 2.
+// Measured 8 and simulated 10 twice, relative noise of 5 % each: simulated over measured less 1 is +25 %, z is ln 1.25
+// over 5 %/sqrt 2.
 TEST(GapRegions, TellTheGapOfLogarithmsAsAFactor) {
   VectorXd y(2);
   y << 8, 8;
@@ -232,9 +232,9 @@ TEST(GapRegions, TellTheGapOfLogarithmsAsAFactor) {
   m.noise = MatrixXd::Identity(2, 2) * std::pow(0.05 * 8, 2);
   for (Observation& row : m.rows) row.apparatus = "mixer", row.observable = "power", row.speed = 1;
   const Region r = locate(m.in_logarithms(TableModel::NoiseOver::observed)).regions.at(0);
-  EXPECT_NEAR(r.relative_gap, -0.2, 1e-12);
+  EXPECT_NEAR(r.relative_gap, 0.25, 1e-12);
   EXPECT_NEAR(r.u, 0.05 / std::sqrt(2.0), 1e-12);
-  EXPECT_NEAR(r.z, std::log(0.8) * std::sqrt(2.0) / 0.05, 1e-9);
+  EXPECT_NEAR(r.z, std::log(1.25) * std::sqrt(2.0) / 0.05, 1e-9);
 }
 
 // Two effects that multiply add up in logarithms; covariances become relative, an effect's over what it changes the

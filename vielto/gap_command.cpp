@@ -2,6 +2,7 @@
 // vielto gap {isolability, diagnose, next, confirm, predict, discrepancy, plan, collect}: where the simulation departs
 // from a measurement, why, how far.
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -91,6 +92,8 @@ struct Question {
       if (std::none_of(inputs.effects.begin(), inputs.effects.end(), [&](const Effect& e) { return e.name == name; }))
         throw BadInput("--without " + name, 0, "is no effect", "name one of the effects' folder");
     if (o.draws > 0) inputs.settings.draws = o.draws;
+    for (const auto* notes : {&inputs.library.notes, &model.silent})
+      model.notes.insert(model.notes.end(), notes->begin(), notes->end());
   }
 
   static std::vector<Eigen::Index> rows_of(const ReducedTable& table, const std::string& role) {
@@ -114,11 +117,13 @@ struct Question {
           .in_logarithms(TableModel::NoiseOver::baseline);
     });
   }
-  // What groups and threshold depend on: conditions and u of the fit rows, library, settings, rivals.
+  std::string fingerprint_of_rows() const { return rows_fingerprint(fit.rows, fit.noise); }
+  // What groups and threshold depend on: the fit rows but for their values, library, settings, rivals.
   std::string fingerprint(const GapOptions& o) const {
-    std::string text = inputs.provenance()["hashes"].dump();
-    for (const Observation& row : fit.rows)
-      text += fmt::format("{} {} {} {:.6g}|", row.apparatus, row.observable, conditions_text(row), row.u);
+    std::vector<std::string> candidates;
+    for (const EffectResponse& e : model.effects) candidates.push_back(e.name);
+    for (const auto& [name, strength] : o.known_effects()) candidates.push_back(name);
+    std::string text = inputs.provenance(&candidates)["hashes"].dump() + fingerprint_of_rows();
     text += fmt::format("{}|{}|{}|{}|{}", fmt::join(o.without, ","), fmt::join(o.ignored, ","), o.runs_per_observation,
                         o.no_discrepancy, o.extrapolate);
     for (const auto& [name, strength] : o.known_effects()) text += fmt::format("|{}={}", name, strength);
@@ -145,7 +150,7 @@ json threshold_json(const Threshold& t) {
           {"draws", t.draws},       {"libraries", t.libraries}, {"seed", t.seed}};
 }
 
-json isolability_json(const Isolability& i, const Threshold& t, const std::string& fingerprint,
+json isolability_json(const Isolability& i, const Threshold& t, const std::string& fingerprint, const std::string& rows,
                       const json& provenance) {
   json j = {{"schema", 1}, {"effects", i.effects}};
   j["detectability"] = json::object();
@@ -164,6 +169,7 @@ json isolability_json(const Isolability& i, const Threshold& t, const std::strin
     if (i.detectable(e)) j["detectable"].push_back(e);
   j["threshold"] = threshold_json(t);
   j["fingerprint"] = fingerprint;
+  j["rows"] = rows;
   j["provenance"] = provenance;
   return j;
 }
@@ -176,21 +182,44 @@ Threshold threshold_of(const GapOptions& o, const Question& q) {
   if (j.is_discarded() || !j.contains("threshold"))
     throw BadInput(o.sealed, 0, "is no isolability.json", "make it with vielto gap isolability");
   if (j["fingerprint"] != q.fingerprint(o))
-    throw BadInput(o.sealed, 0, "was sealed for other rows, u, effects or another library",
+    throw BadInput(o.sealed, 0, "was sealed for other rows, u, correlations, effects or another library",
                    "seal it again before the data");
   const json& t = j["threshold"];
   return {t["log_odds"], t["low95"], t["high95"], t["draws"], t["libraries"], t["seed"]};
 }
 
+const std::vector<const char*> kAnswerFiles = {"diagnosis.json", "diagnosis.html"};
+
 void write_json(const fs::path& path, const json& j) { write_whole_file(path.string(), j.dump(2) + "\n"); }
 
+fs::path make_out(const std::string& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) throw BadInput(folder, 0, "cannot be made", "state a folder that can be written with --out");
+  return folder;
+}
+
+// Said before the work begins, and nothing is made yet.
+void check_out(const std::string& folder, const std::vector<const char*>& names) {
+  if (folder.empty()) return;
+  fs::path there = fs::absolute(folder).lexically_normal();
+  while (!fs::exists(there) && there.has_parent_path() && there != there.parent_path()) there = there.parent_path();
+  if (!fs::is_directory(there)) throw BadInput(there.string(), 0, "is no folder", "state a folder with --out");
+  if (access(there.c_str(), W_OK) != 0)
+    throw BadInput(there.string(), 0, "cannot be written", "state another folder with --out");
+  for (const char* name : names)
+    if (fs::is_directory(fs::path(folder) / name))
+      throw BadInput((fs::path(folder) / name).string(), 0, "is a folder, where a file is to be written",
+                     "move it away");
+}
+
 void run_isolability(const GapOptions& o) {
+  check_out(o.out, {"isolability.json", "isolability.json.sha256", "isolability.csv", "isolability.svg"});
   const Question q(o);
   const Isolability i = isolability(q.before_data(), q.inputs.settings);
-  const json j = isolability_json(i, q.threshold(o), q.fingerprint(o), q.inputs.provenance());
+  const json j = isolability_json(i, q.threshold(o), q.fingerprint(o), q.fingerprint_of_rows(), q.inputs.provenance());
   if (!o.out.empty()) {
-    fs::create_directories(o.out);
-    const fs::path out(o.out);
+    const fs::path out = make_out(o.out);
     write_json(out / "isolability.json", j);
     seal((out / "isolability.json").string());
     write_whole_file((out / "isolability.csv").string(), isolability_csv(i));
@@ -213,6 +242,9 @@ std::string title_of(const GapOptions& o) {
 
 Diagnosis diagnosis_of(const GapOptions& o, const Question& q, const Isolability& i) {
   Diagnosis d = diagnose(q.model, threshold_of(o, q), q.inputs.settings);
+  if (d.threshold.draws < q.inputs.settings.draws)
+    d.notes.push_back(fmt::format("the threshold rests on {} draws, not on the settings' {}", d.threshold.draws,
+                                  q.inputs.settings.draws));
   if (d.check_rows == 0) d.notes.push_back("the table has no check rows: how far the gap shrinks cannot be proved");
   d.predicted = predicted_shrink(q.model, d, i);
   if (d.verdict == "ambiguous" || d.verdict == "unknown")
@@ -226,6 +258,14 @@ json provenance_of(const GapOptions& o, const Question& q) {
   if (!q.table.covariance_path.empty())
     p["hashes"][fs::path(q.table.covariance_path).filename().string()] = sha256_of_file(q.table.covariance_path);
   p["seeds"] = {o.seed};
+  p["options"] = {{"only", o.only},
+                  {"ignore", o.ignored},
+                  {"runs_per_observation", o.runs_per_observation},
+                  {"extrapolate", o.extrapolate},
+                  {"no_discrepancy", o.no_discrepancy},
+                  {"sealed", !o.sealed.empty()},
+                  {"var", o.vars},
+                  {"seeds_of_each_run", o.seeds}};
   p["without"] = o.without;
   p["known"] = json::object();
   for (const auto& [name, strength] : o.known_effects()) p["known"][name] = strength;
@@ -240,34 +280,47 @@ void write_answer(const GapOptions& o, const Question& q, const Diagnosis& d, co
   std::vector<std::string> shown = d.verdict == "ambiguous" ? d.group : d.named;
   shown.resize(std::min<std::size_t>(shown.size(), 2));
   j["sources"] = sources_json(q.inputs.library, shown);
-  fs::create_directories(o.out);
+  const fs::path out = make_out(o.out);
   const std::string page = diagnosis_page(j, title_of(o));
-  write_json(fs::path(o.out) / "diagnosis.json", j);
-  write_whole_file((fs::path(o.out) / "diagnosis.html").string(), page);
+  write_json(out / "diagnosis.json", j);
+  write_whole_file((out / "diagnosis.html").string(), page);
   fmt::print("{}\n", verdict_sentence(d));
   for (const std::string& note : d.notes) fmt::print("note: {}\n", note);
 }
 
 void run_diagnose(const GapOptions& o) {
+  check_out(o.out, kAnswerFiles);
   const Question q(o);
   const Isolability i = isolability(q.before_data(), q.inputs.settings);
   write_answer(o, q, diagnosis_of(o, q, i), provenance_of(o, q));
 }
 
+std::string version_of_first_run(const Plan& plan) {
+  const fs::path description = fs::path(plan.runs.front().run) / "run.json";
+  if (!fs::exists(description)) return "";
+  return read_json(description.string()).value(json::json_pointer("/versions/liggghts"), std::string());
+}
+
 void run_confirm(const GapOptions& o) {
+  check_out(o.out, kAnswerFiles);
   const Question q(o);
-  if (Question::rows_of(q.table, "check").empty())
-    throw BadInput(o.table, 0, "holds no row of role check", "mark held-out tests: the shrink is measured on them");
+  const auto simulable = [](const Observation& row) { return row.role == "check" && row.apparatus != "bench"; };
+  if (std::none_of(q.table.rows.begin(), q.table.rows.end(), simulable))
+    throw BadInput(o.table, 0, "holds no row of role check that a rig can simulate",
+                   "mark held-out tests of mixer, shear box, heap or drum: the shrink is measured on them");
   const Isolability i = isolability(q.before_data(), q.inputs.settings);
   Diagnosis d = diagnosis_of(o, q, i);
   json provenance = provenance_of(o, q);
   if (d.verdict == "no_gap") {
-    write_answer(o, q, d, provenance);
+    if (o.run)
+      write_answer(o, q, d, provenance);
+    else
+      fmt::print("{}\nnothing to simulate: no gap is to be closed\n", verdict_sentence(d));
     return;
   }
   const Plan plan = plan_confirmation(q.inputs, q.model, d, i, o.rig_file(), o.root,
                                       o.runs.empty() ? (fs::path(o.out) / "runs").string() : o.runs, o.seeds, o.vars,
-                                      o.known_effects());
+                                      o.known_effects(), d.notes);
   for (const PlannedRun& run : plan.runs) {
     // seen from the rig's folder, so that the answer speaks of no machine
     std::vector<std::string> words = run.command;
@@ -277,13 +330,17 @@ void run_confirm(const GapOptions& o) {
   }
   if (!o.run) {
     for (const PlannedRun& run : plan.runs) fmt::print("{}\n", command_line(run));
+    for (const std::string& note : d.notes) fmt::print(stderr, "note: {}\n", note);
     return;
   }
   refuse_other_runs(plan);
   // The prediction is on record before the runs begin.
   write_answer(o, q, d, provenance);
   run_plan(plan, o.jobs);
-  d.shrink = measured_shrink(plan, q.inputs, q.model);
+  GapOptions single = o;
+  single.runs_per_observation = 1;
+  d.shrink = measured_shrink(plan, q.inputs, q.model, Question(single).model.seed.diagonal());
+  provenance["liggghts"] = version_of_first_run(plan);
   write_answer(o, q, d, provenance);
 }
 
@@ -301,7 +358,7 @@ void run_next(const GapOptions& o) {
 
 void run_predict(const GapOptions& o) {
   const Inputs inputs(o.files);
-  const auto [values, outside] =
+  const auto [values, outside, silent] =
       simulated_values(inputs, combinations(o.apparatus, o.observable, o.conditions), o.emulator());
   if (!o.out.empty()) write_whole_file(o.out, simulated_csv(values));
   fmt::print("{} of {} [{}], mean over seeds; k = 1, from {}\n", o.observable, o.apparatus, values[0].row.unit,
@@ -311,6 +368,7 @@ void run_predict(const GapOptions& o) {
                conditions_text(v.row).empty() ? "" : conditions_text(v.row) + ": ", v.row.value, v.row.u, v.low95,
                v.high95, v.parts[0], v.parts[1], v.parts[2], v.card);
   for (const std::string& note : outside) fmt::print("OUTSIDE the library, {}\n", note);
+  for (const std::string& note : silent) fmt::print("note: {}\n", note);
 }
 
 void run_discrepancy(const GapOptions& o) {
@@ -326,6 +384,8 @@ void run_discrepancy(const GapOptions& o) {
 }
 
 LibraryPlan library_plan(const GapOptions& o) {
+  if (!fs::is_regular_file(o.table))
+    throw BadInput(o.table, 0, "is no file", "name a plan, such as gap/library/plan.toml");
   const InputFiles files =
       InputFiles{fs::path(o.table).parent_path().string(), o.files.effects, o.files.settings}.completed();
   const std::string rigs = o.rigs.empty() ? (fs::path(files.settings).parent_path() / "rigs.toml").string() : o.rigs;
@@ -351,12 +411,26 @@ void add_gap_command(CLI::App& app) {
   CLI::App* gap =
       app.add_subcommand("gap", "why simulation and measurement disagree: which effect, where, how far it closes");
   gap->require_subcommand(1);
+  // CLI11's own checks let nan through, and -1 as an unsigned number
+  const CLI::Validator finite(
+      [](const std::string& text) {
+        return finite_number(text) ? std::string() : "'" + text + "' is no finite number";
+      },
+      "FINITE");
+  const CLI::Validator condition(
+      [](const std::string& text) {
+        return condition_member(text) || text == "wall" || text == "material"
+                   ? std::string()
+                   : fmt::format("'{}' is no condition; name moisture, tilt, wall, material ...", text);
+      },
+      "CONDITION");
   const auto common = [&](CLI::App* c) {
     c->add_option("--library", o->files.library, "response library (gap/library/)")->required();
     c->add_option("--effects", o->files.effects, "folder of effect files; without it effects/ beside the library");
     c->add_option("--settings", o->files.settings, "without it diagnosis.toml beside the library");
     c->add_option("--ignore", o->ignored, "conditions that need not agree with the library, such as moisture,wall")
-        ->delimiter(',');
+        ->delimiter(',')
+        ->check(condition);
     c->add_flag("--extrapolate", o->extrapolate, "outside the library's conditions: flagged, not refused");
   };
   const auto question = [&](CLI::App* c) {
@@ -368,10 +442,10 @@ void add_gap_command(CLI::App& app) {
                   "EFFECT=STRENGTH that the apparatus surely has: part of the baseline, no candidate (repeatable)");
     c->add_option("--runs-per-observation", o->runs_per_observation,
                   "how many independent runs an observed value is the mean of; 0: u holds their scatter already")
-        ->check(CLI::NonNegativeNumber)
+        ->check(finite & CLI::NonNegativeNumber)
         ->capture_default_str();
     c->add_flag("--no-discrepancy", o->no_discrepancy, "leave the law discrepancy out (more false alarms)");
-    c->add_option("--seed", o->seed, "of the bootstrap")->capture_default_str();
+    c->add_option("--seed", o->seed, "of the bootstrap")->check(CLI::NonNegativeNumber)->capture_default_str();
     c->add_option("--draws", o->draws, "of the bootstrap; without it those of the settings")
         ->check(CLI::PositiveNumber);
   };
@@ -407,7 +481,8 @@ void add_gap_command(CLI::App& app) {
   confirm_command->add_option("--root", o->root, "folder that holds cases/ and materials/")->capture_default_str();
   confirm_command->add_option("--runs", o->runs, "where the run folders go; without it OUT/runs");
   confirm_command->add_option("--seeds", o->seeds, "runs of each")->check(CLI::Range(1, 1000))->capture_default_str();
-  confirm_command->add_option("--var", o->vars, "NAME=VALUE for all runs, such as grainDiameter=0.012 (repeatable)");
+  confirm_command->add_option(
+      "--var", o->vars, "NAME=VALUE for all runs beside the library's own settings, such as turns=14 (repeatable)");
   confirm_command->add_option("--jobs", o->jobs, "runs at a time")->check(CLI::Range(1, 1000))->capture_default_str();
   confirm_command->add_flag("--run", o->run, "run them, then write the measured shrink");
   confirm_command->callback([o] { run_confirm(*o); });
@@ -428,7 +503,7 @@ void add_gap_command(CLI::App& app) {
   for (const NamedCondition& c : kConditions) {
     std::string option = std::string("--") + c.name;
     std::replace(option.begin(), option.end(), '_', '-');
-    predict_command->add_option(option, o->conditions[c.name], "values, by commas")->delimiter(',');
+    predict_command->add_option(option, o->conditions[c.name], "values, by commas")->delimiter(',')->check(finite);
   }
   predict_command->add_option("--known", o->known, "EFFECT=STRENGTH that the apparatus surely has (repeatable)");
   predict_command->add_flag("--no-discrepancy", o->no_discrepancy, "leave the law discrepancy out");

@@ -45,7 +45,8 @@ struct Scored {
   }
 };
 
-std::vector<Scored> read_cases(const fs::path& folder, const fs::path& answers, std::optional<std::uint64_t> shuffle) {
+std::vector<Scored> read_cases(const fs::path& folder, const fs::path& answers, const std::string& fingerprint,
+                               std::optional<std::uint64_t> shuffle) {
   std::ifstream seals(folder / "seals.sha256");
   if (!seals)
     throw BadInput((folder / "seals.sha256").string(), 0, "cannot be read", "name a folder made by gap-withhold");
@@ -72,6 +73,13 @@ std::vector<Scored> read_cases(const fs::path& folder, const fs::path& answers, 
     c.answer = read_json(answers / ids[i] / "diagnosis.json", "diagnose every case into ANSWERS/CASE");
     for (const auto& entry : c.truth["effects"].items()) c.effects.push_back(entry.key());
     std::sort(c.effects.begin(), c.effects.end());
+    // an answer without a removed effect was judged by the sealed threshold, and by no other
+    const json& made = c.answer["provenance"];
+    if (made.is_object() && made.value("without", json::array()).empty() &&
+        made.value("fingerprint", fingerprint) != fingerprint)
+      throw BadInput((answers / ids[i] / "diagnosis.json").string(), 0,
+                     "was made for other rows or another library than were sealed",
+                     "diagnose the case with --sealed, or name the isolability.json that it was made with");
     cases.push_back(c);
   }
   return cases;
@@ -122,7 +130,7 @@ json score(const std::string& folder, const std::string& answers, const std::str
   const Names detectable = sealed["detectable"];
   std::map<std::string, Names> group;
   for (const auto& [name, members] : sealed["groups"].items()) group[name] = members.get<Names>();
-  const std::vector<Scored> cases = read_cases(folder, answers, shuffle);
+  const std::vector<Scored> cases = read_cases(folder, answers, sealed.value("fingerprint", ""), shuffle);
 
   json result = {{"schema", 1}, {"cases", cases.size()}};
   const auto pick = [&](const std::function<bool(const Scored&)>& counts) {
@@ -189,20 +197,22 @@ json score(const std::string& folder, const std::string& answers, const std::str
     return c.answer["shrink"].is_null() ? c.answer["shrink_predicted"] : c.answer["shrink"];
   };
   const auto square = [](double x) { return x * x; };
+  // Sums of squares with the noise taken out; a sum below 0 is 0. A case that was said to have no gap adds nothing to
+  // the simulation: what its gap was before stands on both sides.
+  const auto part = [&](const char* key) {
+    return [key, square](const Scored& c, const json& s) {
+      if (s.is_null()) return square(c.truth["check_before"].get<double>());
+      return s.contains("mean_squares") ? s["mean_squares"][key].get<double>() : square(s[key].get<double>());
+    };
+  };
   const auto closes = [&](const Pick& picked, const std::function<double(const Scored&, const json&)>& what) {
     double after = 0, recalibrated = 0;
     for (const Scored* c : picked) {
       const json s = shrink(*c);
-      const double base = s.is_null() ? c->truth["check_before"].get<double>() : s["recalibrated"].get<double>();
-      recalibrated += square(base);
-      after += square(what(*c, s));
+      recalibrated += part("recalibrated")(*c, s);
+      after += what(*c, s);
     }
-    return recalibrated > 0 ? 1 - std::sqrt(after / recalibrated) : 0.0;
-  };
-  const auto part = [](const char* key) {
-    return [key](const Scored& c, const json& s) {
-      return s.is_null() ? c.truth["check_before"].get<double>() : s[key].get<double>();
-    };
+    return recalibrated > 0 ? 1 - std::sqrt(std::max(0.0, after) / recalibrated) : 0.0;
   };
   const Pick strong = pick([&](const Scored& c) { return known(c) && c.strong(); });
   // without a gap there is nothing to simulate again
@@ -213,7 +223,7 @@ json score(const std::string& folder, const std::string& answers, const std::str
   });
   pooled("closure", strong, [&](const Pick& p) {
     const double best =
-        closes(p, [](const Scored& c, const json&) { return c.truth["check_true_effect"].get<double>(); });
+        closes(p, [&](const Scored& c, const json&) { return square(c.truth["check_true_effect"].get<double>()); });
     return best > 0 ? closes(p, part("after")) / best : 0.0;
   });
   pooled("placebo", strong, [&](const Pick& p) { return closes(p, part("placebo")); });

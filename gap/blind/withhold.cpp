@@ -93,7 +93,14 @@ class Maker {
     if (!seal_holds(request.isolability))
       throw BadInput(request.isolability, 0, "is not what its seal says", "seal it again");
     std::ifstream in(request.isolability);
-    groups_ = json::parse(in)["groups"].get<std::map<std::string, std::vector<std::string>>>();
+    const json sealed = json::parse(in, nullptr, false);
+    if (sealed.is_discarded() || !sealed.contains("groups"))
+      throw BadInput(request.isolability, 0, "is no isolability.json", "make it with vielto gap isolability");
+    const TableModel fit = library_model_.part(fit_);
+    if (sealed.value("rows", "") != rows_fingerprint(fit.rows, fit.noise))
+      throw BadInput(request.isolability, 0, fmt::format("was sealed for other rows than those of {}", request.tests),
+                     "seal those: vielto gap isolability");
+    groups_ = sealed["groups"].get<std::map<std::string, std::vector<std::string>>>();
     u_.resize(library_model_.size());
     for (Index i = 0; i < u_.size(); ++i) u_[i] = table_.rows[i].u;
   }
