@@ -243,7 +243,8 @@ std::string diagnosis_page(const json& d, const std::string& title) {
       "charset=\"utf-8\"><title>{0}</title>\n<style>body{{font-family:sans-serif;"
       "max-width:52em;margin:2em auto;padding:0 1em}}table{{border-collapse:collapse}}td,th{{padding:.15em "
       ".7em;text-align:left}}"
-      ".n{{text-align:right;font-variant-numeric:tabular-nums}}.verdict{{font-size:1.3em;border-left:.3em solid "
+      ".n{{text-align:right;white-space:nowrap;font-variant-numeric:tabular-nums}}.verdict{{font-size:1.3em;border-"
+      "left:.3em solid "
       "#2c6fbb;"
       "padding-left:.7em}}</style></head><body>\n<h1>{0}</h1>\n<p class=\"verdict\">{1}</p>\n",
       escaped(title), escaped(d["sentence"].get<std::string>()));

@@ -115,6 +115,12 @@ with tempfile.TemporaryDirectory(prefix="vielto-campaign-") as name:
     assert beds.returncode == 0, beds.stdout + beds.stderr + (folder / "beds/snakemake.log").read_text()
     filled = [(folder / "beds/runs" / run / "bed.restart").exists() for run in ("slow_a", "fast_b")]
     assert filled == [False, True], filled
+    # one that stops by itself is named; the tables hold the others
+    study.write_text(STUDY.splitlines()[0] + "\n" + STUDY.splitlines()[2] + "\nwedged,mixer,1.5,0.05,0.016,2e5,2e5,1e-6,0.2,3,1\n")
+    part = subprocess.run(campaign(study, folder / "wedged"), capture_output=True, text=True)
+    assert part.returncode == 1 and "not in the tables: wedged; " in part.stderr, part
+    held = (folder / "wedged/numbers.csv").read_text().splitlines()
+    assert len(held) == 2 and held[1].startswith("fast,"), held
     # nothing to do any more
     study.write_text(STUDY)
     before = tables(folder / "whole")
@@ -125,13 +131,23 @@ with tempfile.TemporaryDirectory(prefix="vielto-campaign-") as name:
                         ("run,rig,seed\na,mixer,1\na,mixer,2\n", "line 3: run a is there twice"),
                         ("run,rig,bed\na,shearbox,b\n", "line 2: bed b is no run of this study"),
                         ("run,rig,seed\na,mixer\n", "line 2: it has not as many cells as the header"),
+                        ("run,rig,seed\nidle_1,mixer,1\n", "line 2: 'idle_1' is no name for a run"),
+                        ("run,rig,seed\na b,mixer,1\n", "line 2: 'a b' is no name for a run"),
                         ("run,rig,seed\n", "there are no runs in it")):
         study.write_text(text)
         refused = subprocess.run(campaign(study, folder / "bad"), capture_output=True, text=True)
         assert refused.returncode == 2 and fault in refused.stderr, refused
         assert not (folder / "bad").exists()
+    study.write_bytes(bytes(range(256)))
+    for words, fault in (((study, folder / "bad"), "is no CSV table"), ((folder, folder / "bad"), "there is no study"),
+                         ((folder / "none.csv", folder / "bad"), "known: calibration"), (("grid", study), "cannot be made")):
+        refused = subprocess.run(campaign(*words), capture_output=True, text=True)
+        assert refused.returncode == 2 and fault in refused.stderr and refused.stderr.count("\n") == 1, refused
+    none = subprocess.run([*campaign("grid", folder / "bad"), "--cores", "0"], capture_output=True, text=True)
+    assert none.returncode == 2 and "'0' is no number of runs" in none.stderr, none
     missing = subprocess.run(campaign("nonsense", folder / "bad"), capture_output=True, text=True)
     assert missing.returncode == 2 and "there is no study nonsense; known: " in missing.stderr and "grid" in missing.stderr, missing
+    assert program.work({"rig": "mixer", "speed": "0"}) == 0 and program.work({"rig": "mixer", "youngsModulus": "-1"}) == 0
     study.write_text("run,rig,speed\na,mixer,-1\n")
     failed = subprocess.run(campaign(study, folder / "failed"), capture_output=True, text=True)
     assert failed.returncode == 1 and "not all runs ended well" in failed.stderr, failed

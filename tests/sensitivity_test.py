@@ -41,12 +41,20 @@ with tempfile.TemporaryDirectory(prefix="vielto-sensitivity-") as name:
     for text, words, fault in ((good.replace("drum_fast_s1", "drum-fast"), (), "run drum-fast is not named LABEL_sN"),
                                (HEAD + run("fine_s1", 33) + run("fine_s2", 32), (), "no base run under the same conditions"),
                                (HEAD + run("base_s1", 30), (), "no label has two seeds"),
-                               ("a,b\n1,2\n", (), ":2: run, speed, fill and power_W are not all there"),
+                               ("a,b\n1,2\n", (), ":1: has no column run, speed, fill, power_W"),
+                               (good + good.splitlines()[1] + "\n", (), "is there twice"),
+                               (HEAD + run("base_s1", 30) + run("base_s2", 0), (), ":3: power_W is '0'"),
+                               (HEAD + run("base_s1", 30) + run("base_s2", "nan"), (), ":3: power_W is 'nan'"),
+                               (good, ("--picture", name / "x.foo"), "a picture is .svg or .png"),
                                (good, ("--numerical", "step"), "--numerical step: no such label")):
         table.write_text(text)
         out.unlink(missing_ok=True)
         bad = sensitivity(table, "--out", out, *words)
         assert bad.returncode == 2 and fault in bad.stderr and bad.stderr.count("\n") == 1, bad
         assert not out.exists()
+    # the same table twice would count each run twice
+    table.write_text(good)
+    bad = sensitivity(table, table)
+    assert bad.returncode == 2 and "is there twice" in bad.stderr, bad
     bad = sensitivity(name / "none.csv")
     assert bad.returncode == 2 and "No such file" in bad.stderr, bad

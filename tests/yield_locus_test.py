@@ -40,9 +40,11 @@ with tempfile.TemporaryDirectory(prefix="vielto-locus-") as name:
     assert f"± {math.degrees(u_slope / 1.36):.2f} deg" in told.stdout, told.stdout
 
     for text, fault in ((HEAD + rows[0] + rows[1], "2 shear runs whose normal stresses are not apart"),
-                        (HEAD + 3 * rows[0], "not apart"),
-                        (HEAD + rows[0].replace(",100,", ",x,"), ":2: plane_normal_stress_Pa"),
-                        (HEAD + rows[0].replace(",100,", ",0,"), "is above 0")):
+                        (HEAD + "".join(rows[0].replace("p", str(k), 1) for k in range(3)), "not apart"),
+                        (HEAD + 3 * rows[0], ":3: p10000 is there twice"),
+                        (HEAD + rows[0].replace(",100,", ",x,"), ":2: shear_stress_steady_u_Pa is 'x'"),
+                        (HEAD + rows[0].replace(",11000.0,", ",inf,"), ":2: plane_normal_stress_Pa is 'inf'"),
+                        (HEAD + rows[0].replace(",100,", ",0,"), "a finite number above 0")):
         table.write_text(text)
         bad = locus(table)
         assert bad.returncode == 2 and fault in bad.stderr and bad.stderr.count("\n") == 1, bad
