@@ -45,7 +45,7 @@ std::vector<Observation> combinations(const std::string& apparatus, const std::s
 SimulatedValues simulated_values(const Inputs& inputs, const std::vector<Observation>& rows, EmulatorOptions options) {
   options.runs_per_observation = 0;  // the mean over seeds
   const auto n = static_cast<Eigen::Index>(rows.size());
-  ReducedTable table{"conditions", "", rows, {}, {}};
+  ReducedTable table{"the conditions asked for", "", rows, {}, {}};
   for (Eigen::Index i = 1; i <= n; ++i) table.lines.push_back(static_cast<int>(i));
   table.covariance.resize(n, n);
   table.covariance.setIdentity();

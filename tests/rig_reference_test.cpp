@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Each rig against its reference file, cases/RIG/reference.csv: the numbers of eight seeds of a coarse run
-// (scripts/reference, settings in workflow/studies/reference.csv). A ninth seed, run here through the rig's command
-// line, must lie where one more draw of the same lot lies: mean +- t s sqrt(1 + 1/8), t Student's quantile for one
-// number out of the twelve being outside once in a hundred times. Not bit by bit: a change of round-off leads to
-// another bed, and to another draw.
+// Each rig against its reference file, cases/RIG/reference.csv: the numbers of eight seeds or more of a coarse run
+// (scripts/reference, settings in workflow/studies/reference.csv). Seed 9, which is none of them, run here through the
+// rig's command line, must lie where one more draw of the same lot lies: mean +- t s sqrt(1 + 1/n), t Student's quantile
+// for one number out of the thirteen being outside once in a hundred times. Not bit by bit: a change of round-off leads
+// to another bed, and to another draw.
 #include <nlohmann/json.hpp>
 
 #include "mean_uncertainty.h"
@@ -41,7 +41,7 @@ class RigReference : public testing::TestWithParam<Case> {};
 
 }  // namespace
 
-TEST_P(RigReference, ANinthSeedIsOneMoreDraw) {
+TEST_P(RigReference, AnotherSeedIsOneMoreDraw) {
   const std::string source = VIELTO_SOURCE_DIR;
   const int seed = 9;
   std::string options;
@@ -74,9 +74,12 @@ TEST_P(RigReference, ANinthSeedIsOneMoreDraw) {
     for (const double v : values) squares += (v - mean) * (v - mean);
     const double sd = std::sqrt(squares / (n - 1));
     EXPECT_GT(sd, 0) << name;
-    const double t = vielto::student_quantile(1 - 0.01 / 12 / 2, n - 1);
+    const double t = vielto::student_quantile(1 - 0.01 / 13 / 2, n - 1);
     const double value = told[name];
-    EXPECT_NEAR(value, mean, t * sd * std::sqrt(1 + 1 / n)) << name;
+    const double band = t * sd * std::sqrt(1 + 1 / n);
+    EXPECT_NEAR(value, mean, band) << name;
+    // the seeds must scatter little enough for the test to see a rig that shows nothing, or twice as much
+    EXPECT_LT(band, 0.8 * std::fabs(mean)) << name;
   }
 }
 
