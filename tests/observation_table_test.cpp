@@ -190,7 +190,11 @@ TEST_F(ObservationTable, RefusesAFaultWithFileLineColumnAndReason) {
 
 TEST_F(ObservationTable, RefusesAMissingFileAnotherHeaderAndAnEmptyTable) {
   EXPECT_EQ(refusal([&] { vielto::read_observations(path_); }).rfind("table.csv: cannot be read", 0), 0u);
-  EXPECT_EQ(refusal([&] { read(""); }).rfind("table.csv, line 1: has another header", 0), 0u);
+  EXPECT_EQ(refusal([&] { read(""); }).rfind("table.csv: is empty", 0), 0u);
+  EXPECT_EQ(refusal([&] {
+              read("\xEF\xBB\xBF" + kHeader + "\n");
+            }).rfind("table.csv, line 1: begins with a byte-order mark", 0),
+            0u);
   EXPECT_EQ(refusal([&] { read("test, role\n"); }).rfind("table.csv, line 1: has another header", 0), 0u);
   EXPECT_EQ(refusal([&] { read(kHeader + "\n"); }).rfind("table.csv: holds no row", 0), 0u);
 }
