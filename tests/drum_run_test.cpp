@@ -77,6 +77,8 @@ TEST_P(DrumRefuses, WithOneLine) {
 INSTANTIATE_TEST_SUITE_P(
     BadInput, DrumRefuses,
     testing::Values(Refusal{"NoSpeed", "-var speed 0", {"speed is 0", "> 0"}},
+                    Refusal{"NoGravity", "-var gravity 0", {"gravity is 0", "> 0"}},
+                    Refusal{"NoBulkDensity", "-var bulkDensity 0", {"bulkDensity is 0", "> 0"}},
                     Refusal{"TooFull", "-var fill 0.9", {"fill is 0.9", "0.6"}},
                     Refusal{"TiltedOver", "-var tilt 90", {"tilt is 90", "0 to 80"}},
                     Refusal{"GrainTooLarge", "-var grainDiameter 0.02", {"grainDiameter is 0.02", "drumLength"}},

@@ -121,6 +121,7 @@ TEST(ShearBox, ThatCannotBeBuiltIsRefused) {
   EXPECT_NE(refusal("shearbox", {{"plateGap", "0.03"}}).find("plateGap"), std::string::npos);
   EXPECT_NE(refusal("shearbox", {{"plateThickness", "0.08"}}).find("plateThickness"), std::string::npos);
   EXPECT_NE(refusal("shearbox", {{"splitGap", "0.02"}}).find("splitGap"), std::string::npos);
+  EXPECT_NE(refusal("shearbox", {{"splitGap", "0"}}).find("splitGap"), std::string::npos);
 }
 
 TEST(Repose, CylinderStandsOnTheBaseAndFacesTheGrains) {

@@ -23,7 +23,7 @@ RigGeometry shearbox_geometry(GeometryInput& input) {
   const double split = input.positive("splitHeight");
   const double freeboard = input.not_negative("freeboard");
   const double reach = input.positive("flangeLength");
-  const double split_gap = input.not_negative("splitGap");
+  const double split_gap = input.positive("splitGap");
   const double plate_gap = input.positive("plateGap");
   const double plate_thickness = input.positive("plateThickness");
 
