@@ -11,7 +11,13 @@ def write(folder, cells, copies=1):
     """packing.data and packing.par for liggghts and LAMMPS; the number of grains, 2 cells^3 times the copies along x."""
     edge = 0.995 * D * 2 / math.sqrt(3)
     roll = random.Random(1)
-    places = [(i + h, j + h, k + h) for i in range(copies * cells) for j in range(cells) for k in range(cells) for h in (0, 0.5)]
+    places = [
+        (i + h, j + h, k + h)
+        for i in range(copies * cells)
+        for j in range(cells)
+        for k in range(cells)
+        for h in (0, 0.5)
+    ]
     mass = DENSITY * math.pi / 6 * D**3
     kn = E * D
     v = 0.02  # m/s: enough that contacts slide and come back, too little to melt the lattice
@@ -23,8 +29,19 @@ def write(folder, cells, copies=1):
         out.write("\nVelocities\n\n")
         for n in range(len(places)):
             out.write(f"{n + 1} " + " ".join(f"{roll.gauss(0, v):.6g}" for _ in range(3)) + " 0 0 0\n")
-    values = {"E": E, "ratio": RATIO, "angle": ANGLE, "damping": DAMPING, "kn": kn, "ks": RATIO * kn, "kr": 0.5 * RATIO * kn,
-              "ktw": 0.5 * RATIO * kn, "cn": 2 * DAMPING * math.sqrt(kn * mass / 2), "mu": math.tan(math.radians(ANGLE)),
-              "skin": 0.25 * D, "dt": 0.045 * math.pi * math.sqrt(2 / 7 * mass / kn)}
+    values = {
+        "E": E,
+        "ratio": RATIO,
+        "angle": ANGLE,
+        "damping": DAMPING,
+        "kn": kn,
+        "ks": RATIO * kn,
+        "kr": 0.5 * RATIO * kn,
+        "ktw": 0.5 * RATIO * kn,
+        "cn": 2 * DAMPING * math.sqrt(kn * mass / 2),
+        "mu": math.tan(math.radians(ANGLE)),
+        "skin": 0.25 * D,
+        "dt": 0.045 * math.pi * math.sqrt(2 / 7 * mass / kn),
+    }
     pathlib.Path(folder, "packing.par").write_text("".join(f"variable {k} index {x:.9g}\n" for k, x in values.items()))
     return len(places)

@@ -42,9 +42,15 @@ def law(folder, quick, pairs):
     for engine in (ours, stock):
         engine.quit()
     nanoseconds = lambda t: 1e9 * law_time(t) / t["steps"] / (t["pair_contacts"] + t["wall_contacts"])
-    print(f"{a['grains']:.0f} grains, {a['pair_contacts']:.0f} + {a['wall_contacts']:.0f} contacts (stock "
-          f"{b['pair_contacts']:.0f} + {b['wall_contacts']:.0f}); last pair {nanoseconds(a):.0f} and {nanoseconds(b):.0f} ns a contact")
-    return {"contact_law_over_stock": spread(law), "step_over_stock": spread(step), "contacts_over_stock": spread(contacts)}
+    print(
+        f"{a['grains']:.0f} grains, {a['pair_contacts']:.0f} + {a['wall_contacts']:.0f} contacts (stock "
+        f"{b['pair_contacts']:.0f} + {b['wall_contacts']:.0f}); last pair {nanoseconds(a):.0f} and {nanoseconds(b):.0f} ns a contact"
+    )
+    return {
+        "contact_law_over_stock": spread(law),
+        "step_over_stock": spread(step),
+        "contacts_over_stock": spread(contacts),
+    }
 
 
 def ranks(folder, quick, pairs):
@@ -60,8 +66,10 @@ def ranks(folder, quick, pairs):
     many = (one.step(1)["grains"], one.memory)
     for engine in (one, two):
         engine.quit()
-    return {"ranks2_over_1": dict(spread(gain), grains=many[0]),
-            "bytes_per_grain": (many[1] - few[1]) * 1024**2 / (many[0] - few[0])}
+    return {
+        "ranks2_over_1": dict(spread(gain), grains=many[0]),
+        "bytes_per_grain": (many[1] - few[1]) * 1024**2 / (many[0] - few[0]),
+    }
 
 
 def yade(folder, quick, pairs):
@@ -69,6 +77,7 @@ def yade(folder, quick, pairs):
     sys.path[:0] = [str(ROOT / "yade/stir"), str(ROOT / "yade/contact")]
     import drum
     import runs
+
     case = json.loads((ROOT / "yade/stir/case.json").read_text())
     where = pathlib.Path(folder)
     runs.meshes(case, where)
@@ -87,10 +96,16 @@ def yade(folder, quick, pairs):
         engine.quit()
     mean = lambda ts, name: statistics.mean(t[name] for t in ts)
     speed = lambda ts: statistics.median(case["grains"] * t["steps"] / t["run_s"] for t in ts)
-    return {"particle_steps_over_yade": dict(
-        spread(faster), grains=case["grains"], particle_steps_per_s=speed(a), yade_particle_steps_per_s=speed(b),
-        contacts=[mean(a, "pair_contacts"), mean(a, "wall_contacts")],
-        yade_contacts=[mean(b, "pair_contacts"), mean(b, "wall_contacts")])}
+    return {
+        "particle_steps_over_yade": dict(
+            spread(faster),
+            grains=case["grains"],
+            particle_steps_per_s=speed(a),
+            yade_particle_steps_per_s=speed(b),
+            contacts=[mean(a, "pair_contacts"), mean(a, "wall_contacts")],
+            yade_contacts=[mean(b, "pair_contacts"), mean(b, "wall_contacts")],
+        )
+    }
 
 
 def lammps(folder, quick, pairs):
@@ -113,8 +128,13 @@ def size(folder, quick, pairs):
         steps = max(2, round((1e5 if quick else 1e6) / grains))
         took = [engine.step(steps) for _ in range(min(pairs, 15))]
         engine.quit()
-        rows.append(dict(spread([1e9 * t["run_s"] / steps / grains for t in took]), grains=grains,
-                         contacts_per_grain=took[-1]["pair_contacts"] / grains))
+        rows.append(
+            dict(
+                spread([1e9 * t["run_s"] / steps / grains for t in took]),
+                grains=grains,
+                contacts_per_grain=took[-1]["pair_contacts"] / grains,
+            )
+        )
     return {"ns_per_particle_step_by_grains": rows}
 
 
@@ -124,8 +144,12 @@ def triangles(folder, quick, pairs):
     for factor in (1, 4) if quick else (1, 2, 4, 8):
         where = pathlib.Path(folder, f"mesh{factor}")
         where.mkdir()
-        bed = make_bed(where, (f"drumSegments={24 * factor}", f"shaftSegments={12 * factor}"), turns=0.05, d=0.012, E=1e5)
-        counts.append(sum(p.read_text(errors="replace").count("endfacet") for p in pathlib.Path(where, "mesh").glob("*.stl")))
+        bed = make_bed(
+            where, (f"drumSegments={24 * factor}", f"shaftSegments={12 * factor}"), turns=0.05, d=0.012, E=1e5
+        )
+        counts.append(
+            sum(p.read_text(errors="replace").count("endfacet") for p in pathlib.Path(where, "mesh").glob("*.stl"))
+        )
         beds.append(Engine(where, law=1, **bed, E=1e5))
     times = [[] for _ in beds]
     for _ in range(pairs):
@@ -133,9 +157,17 @@ def triangles(folder, quick, pairs):
             took.append(engine.step(100))
     for engine in beds:
         engine.quit()
-    return {"us_per_step_by_triangles": [
-        dict(spread([1e6 * t["run_s"] / t["steps"] for t in took]), triangles=count, grains=took[-1]["grains"],
-             wall_share=statistics.median(t["wall_s"] / t["run_s"] for t in took)) for took, count in zip(times, counts)]}
+    return {
+        "us_per_step_by_triangles": [
+            dict(
+                spread([1e6 * t["run_s"] / t["steps"] for t in took]),
+                triangles=count,
+                grains=took[-1]["grains"],
+                wall_share=statistics.median(t["wall_s"] / t["run_s"] for t in took),
+            )
+            for took, count in zip(times, counts)
+        ]
+    }
 
 
 def memory(folder, quick, pairs):
@@ -150,9 +182,15 @@ def memory(folder, quick, pairs):
         bound = (t["pair_contacts"] * CONTACT_BYTES + grains * GRAIN_BYTES) / bandwidth[-1]
         ratio.append(t["pair_s"] / t["steps"] / bound)
     engine.quit()
-    return {"over_memory_bound": dict(spread(ratio), grains=grains, contacts=t["pair_contacts"],
-                                      bytes_per_contact=CONTACT_BYTES + GRAIN_BYTES * grains / t["pair_contacts"],
-                                      triad_bytes_per_s=statistics.median(bandwidth))}
+    return {
+        "over_memory_bound": dict(
+            spread(ratio),
+            grains=grains,
+            contacts=t["pair_contacts"],
+            bytes_per_contact=CONTACT_BYTES + GRAIN_BYTES * grains / t["pair_contacts"],
+            triad_bytes_per_s=statistics.median(bandwidth),
+        )
+    }
 
 
 PARTS = {part.__name__: part for part in (law, ranks, yade, lammps, size, triangles, memory)}
@@ -160,5 +198,7 @@ PACKAGES = {"yade": ["yade"], "lammps": ["lammps"]}  # lists in scripts/packages
 
 
 def machine():
-    model = next((line.split(":", 1)[1].strip() for line in open("/proc/cpuinfo") if line.startswith("model name")), "unknown")
+    model = next(
+        (line.split(":", 1)[1].strip() for line in open("/proc/cpuinfo") if line.startswith("model name")), "unknown"
+    )
     return {"cpu": model, "cores": os.cpu_count()}

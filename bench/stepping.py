@@ -15,8 +15,11 @@ ENV = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIR
 def build(packages=()):
     """What the benchmark needs; `packages`: lists in scripts/packages beyond those of every part."""
     subprocess.run([ROOT / "scripts" / "install-packages", "demo", "bench", *packages], check=True)
-    subprocess.run([ROOT / "scripts" / "build", "release", "vielto", "vielto_run", "vielto_bench", "vielto_triad"], check=True,
-                   stdout=subprocess.DEVNULL)
+    subprocess.run(
+        [ROOT / "scripts" / "build", "release", "vielto", "vielto_run", "vielto_bench", "vielto_triad"],
+        check=True,
+        stdout=subprocess.DEVNULL,
+    )
 
 
 def command(script, ranks, variables):
@@ -32,8 +35,16 @@ class Program:
     def __init__(self, words, folder, name):
         self.log = open(f"{folder}/log.{name}", "w")
         self.memory = 0.0
-        self.process = subprocess.Popen(words, cwd=folder, env=ENV, stdin=subprocess.PIPE, stdout=subprocess.PIPE,
-                                        stderr=self.log, text=True, errors="replace")
+        self.process = subprocess.Popen(
+            words,
+            cwd=folder,
+            env=ENV,
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            stderr=self.log,
+            text=True,
+            errors="replace",
+        )
 
     def until(self, word):
         lines = []
@@ -64,7 +75,7 @@ class Engine(Program):
 
     def step(self, steps):
         self.say(f"run {steps}\n")
-        return json.loads(self.until("TIMED")[len("TIMED "):])
+        return json.loads(self.until("TIMED")[len("TIMED ") :])
 
 
 class Yade(Program):
@@ -74,7 +85,7 @@ class Yade(Program):
 
     def step(self, steps):
         self.say(f"run {steps}\n")
-        return json.loads(self.until("TIMED")[len("TIMED "):])
+        return json.loads(self.until("TIMED")[len("TIMED ") :])
 
 
 class Lammps(Program):
@@ -90,8 +101,10 @@ class Lammps(Program):
         return {"run_s": float(self.until("Loop time of").split()[3]), "steps": steps}
 
     def contacts(self):
-        self.say("compute touch all contact/atom\ncompute touches all reduce sum c_touch\nthermo_style custom step c_touches\n"
-                 'run 0\nprint "DONE"\n')
+        self.say(
+            "compute touch all contact/atom\ncompute touches all reduce sum c_touch\nthermo_style custom step c_touches\n"
+            'run 0\nprint "DONE"\n'
+        )
         values = []
         while not (line := self.until("")).startswith("DONE"):
             if re.fullmatch(r"\s*\d+\s+[0-9.e+]+\s*", line):
@@ -101,10 +114,27 @@ class Lammps(Program):
 
 def make_bed(folder, geometry=(), **variables):
     """A bed in motion as a data file; the variables that in.timed needs to go on from it."""
-    subprocess.run([BIN / "vielto", "geometry", ROOT / "cases/mixer/mixer.par", "--out", f"{folder}/mesh",
-                    *(f"--set={g}" for g in geometry)], check=True, stdout=subprocess.DEVNULL)
-    result = subprocess.run(command(ROOT / "bench/in.bed", 1, dict(variables, mesh=f"{folder}/mesh")), cwd=folder, env=ENV,
-                            input="quit\n", capture_output=True, text=True, errors="replace")
+    subprocess.run(
+        [
+            BIN / "vielto",
+            "geometry",
+            ROOT / "cases/mixer/mixer.par",
+            "--out",
+            f"{folder}/mesh",
+            *(f"--set={g}" for g in geometry),
+        ],
+        check=True,
+        stdout=subprocess.DEVNULL,
+    )
+    result = subprocess.run(
+        command(ROOT / "bench/in.bed", 1, dict(variables, mesh=f"{folder}/mesh")),
+        cwd=folder,
+        env=ENV,
+        input="quit\n",
+        capture_output=True,
+        text=True,
+        errors="replace",
+    )
     angle = re.search(r"^ANGLE (\S+)", result.stdout, re.M)
     box = re.search(r"^BOX (\S+) (\S+) (\S+)", result.stdout, re.M)
     if not angle or not box:
@@ -113,8 +143,10 @@ def make_bed(folder, geometry=(), **variables):
     grains = [line.split() for line in lines]
     length, top, density = box.groups()
     with open(f"{folder}/bed.data", "w") as out:
-        out.write(f"bed in motion\n\n{len(grains)} atoms\n2 atom types\n\n"
-                  f"0 {length} xlo xhi\n-0.15 0.15 ylo yhi\n-0.15 {top} zlo zhi\n\nAtoms\n\n")
+        out.write(
+            f"bed in motion\n\n{len(grains)} atoms\n2 atom types\n\n"
+            f"0 {length} xlo xhi\n-0.15 0.15 ylo yhi\n-0.15 {top} zlo zhi\n\nAtoms\n\n"
+        )
         for g in grains:
             out.write(f"{g[0]} {g[1]} {2 * float(g[11]):.16g} {density} {g[2]} {g[3]} {g[4]}\n")
         out.write("\nVelocities\n\n")

@@ -24,5 +24,16 @@ for line in sys.stdin:
     took = time.perf_counter() - begin
     real = [i for i in O.interactions if i.isReal]
     pairs = sum(1 for i in real if max(i.id1, i.id2) < len(run["grains"]))
-    print("TIMED", json.dumps({"steps": steps, "run_s": took, "grains": len(run["grains"]), "pair_contacts": pairs,
-                               "wall_contacts": len(real) - pairs}), flush=True)
+    print(
+        "TIMED",
+        json.dumps(
+            {
+                "steps": steps,
+                "run_s": took,
+                "grains": len(run["grains"]),
+                "pair_contacts": pairs,
+                "wall_contacts": len(real) - pairs,
+            }
+        ),
+        flush=True,
+    )

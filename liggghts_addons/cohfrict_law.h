@@ -2,10 +2,10 @@
 /* CohFrictPhys: the elastic, frictional contact law with cohesion that breaks and with moments, which the thesis tried
    before ViElTo.
 
-   Purpose   One contact's step as a stateless function on numbers; needs the standard library only. The LIGGGHTS adapter
-             normal_model_cohfrict.h calls nothing else.
-   Source    Yade 2023.02a, documentation of CohFrictMat, CohFrictPhys and Law2_ScGeom6D_CohFrictPhys_CohesionMoment
-             (Bourrier et al. 2013); what it leaves open was found out on the installed program (yade/README.md).
+   Purpose   One contact's step as a stateless function on numbers; needs the standard library only. The LIGGGHTS
+   adapter normal_model_cohfrict.h calls nothing else. Source    Yade 2023.02a, documentation of CohFrictMat,
+   CohFrictPhys and Law2_ScGeom6D_CohFrictPhys_CohesionMoment (Bourrier et al. 2013); what it leaves open was found out
+   on the installed program (yade/README.md).
 
    Bodies 1 and 2, radii R. A wall is body 2 with R_2 = wallRadiusFactor * R_1.
 
@@ -42,15 +42,15 @@ using vielto::Vec;
 
 // What one body brings into a contact; Yade's names.
 struct Material {
-  double young;          // E, Pa
-  double poisson;        // nu = k_s/k_n, 1; not an elastic constant
-  double frictionAngle;  // phi, rad
-  double alphaKr;        // rolling stiffness over k_s R_1R_2, 1
-  double alphaKtw;       // twisting stiffness over k_s R_1R_2, 1
-  double etaRoll;        // arm of the rolling moment's limit over R, 1; < 0: no limit
-  double etaTwist;       // arm of the twisting moment's limit over R, 1; < 0: no limit
-  double normalCohesion; // C_n, Pa
-  double shearCohesion;  // C_s, Pa
+  double young;           // E, Pa
+  double poisson;         // nu = k_s/k_n, 1; not an elastic constant
+  double frictionAngle;   // phi, rad
+  double alphaKr;         // rolling stiffness over k_s R_1R_2, 1
+  double alphaKtw;        // twisting stiffness over k_s R_1R_2, 1
+  double etaRoll;         // arm of the rolling moment's limit over R, 1; < 0: no limit
+  double etaTwist;        // arm of the twisting moment's limit over R, 1; < 0: no limit
+  double normalCohesion;  // C_n, Pa
+  double shearCohesion;   // C_s, Pa
 };
 
 // Two materials after the mixing rules that do not need the radii; made once per pair of types.
@@ -82,11 +82,11 @@ inline Pair mix(const Material& a, const Material& b) {
 
 // Constants of one contact.
 struct Contact {
-  double kn, ks;                        // N/m
-  double kr, ktw;                       // N m
+  double kn, ks;   // N/m
+  double kr, ktw;  // N m
   double tanPhi;
-  double rollingArm, twistingArm;       // limit of the moment over |F_n|, m; < 0: no limit
-  double normalAdhesion, shearAdhesion; // N
+  double rollingArm, twistingArm;        // limit of the moment over |F_n|, m; < 0: no limit
+  double normalAdhesion, shearAdhesion;  // N
 };
 
 inline Contact contact(const Pair& p, double R1, double R2) {
@@ -155,7 +155,8 @@ inline double held(const Contact& c, double Fn, const Memory& memory) {
 
 /* One step of a contact. Returns false where the contact has ended: no load, and the memory is to be forgotten.
    `energy`, if asked for, is of this step. */
-inline bool advance(const Contact& c, const Motion& m, double dt, Memory& memory, Load& load, Energy* energy = nullptr) {
+inline bool advance(const Contact& c, const Motion& m, double dt, Memory& memory, Load& load,
+                    Energy* energy = nullptr) {
   double Fn = c.kn * m.overlap;
   if (-Fn > (memory.bonded ? c.normalAdhesion : 0.0)) {
     if (energy) *energy = {0, held(c, memory.bonded ? Fn : 0.0, memory), 0, 0};

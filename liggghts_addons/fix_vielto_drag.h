@@ -3,14 +3,14 @@
 
      fix ID GROUP vielto/drag scale S diameter D density RHO
 
-   A grain of velocity v gets the force -m a_D v/|v| with the deceleration of a lone sphere of diameter D (m) and density RHO
-   (kg/m3), times S (1; > 0):
+   A grain of velocity v gets the force -m a_D v/|v| with the deceleration of a lone sphere of diameter D (m) and
+   density RHO (kg/m3), times S (1; > 0):
 
      a_D = S (3/4) C_D (rho_air/RHO) v^2/D,   Re = rho_air v D/mu_air
      C_D = 24/Re (1 + 0.15 Re^0.687) for Re < 1000, else 0.44
 
-   with air of 20 C, rho_air 1.2 kg/m3, mu_air 1.8e-5 Pa s. Spins are not slowed; the energy accounts of vielto/record do not
-   book it. Source: Schiller and Naumann 1933, Z. Ver. Dtsch. Ing. 77:318. */
+   with air of 20 C, rho_air 1.2 kg/m3, mu_air 1.8e-5 Pa s. Spins are not slowed; the energy accounts of vielto/record
+   do not book it. Source: Schiller and Naumann 1933, Z. Ver. Dtsch. Ing. 77:318. */
 #ifndef LMP_FIX_VIELTO_DRAG_H
 #define LMP_FIX_VIELTO_DRAG_H
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/* A mesh that is a body of mass M with one degree of freedom, the vertical: it moves by gravity and by the contact forces
-   of the grains on it, and by nothing else. No controller.
+/* A mesh that is a body of mass M with one degree of freedom, the vertical: it moves by gravity and by the contact
+   forces of the grains on it, and by nothing else. No controller.
 
      M dv/dt = F_z - M g - c v          F_z: force of the grains on the mesh
 
@@ -15,7 +15,7 @@
    leaves the plate its one freedom. A restart carries velocity and force on; the mesh keeps its place itself.
    Global vector: 1 height of the lowest point, m; 2 velocity, m/s; 3 force of the grains on the plate, upwards, N. */
 #ifdef FIX_CLASS
-FixStyle(vielto/plate, FixViEltoPlate)
+FixStyle(vielto / plate, FixViEltoPlate)
 #else
 #ifndef LMP_FIX_VIELTO_PLATE_H
 #define LMP_FIX_VIELTO_PLATE_H

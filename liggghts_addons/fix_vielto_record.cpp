@@ -119,7 +119,8 @@ void FixViEltoRecord::check_torque(const Part& part, double torque) const {
   MPI_Allreduce(&mine, &most, 1, MPI_DOUBLE_INT, MPI_MAXLOC, world);
   char line[400];
   snprintf(line, sizeof line,
-           "vielto: step " BIGINT_FORMAT " (turn %.3f): torque of %s is %.4g N m, over the limit of %.4g N m (maxTorque); the "
+           "vielto: step " BIGINT_FORMAT
+           " (turn %.3f): torque of %s is %.4g N m, over the limit of %.4g N m (maxTorque); the "
            "greatest wall force, %.4g N, acts on grain %d",
            update->ntimestep, turn(), part.name.c_str(), torque, maxTorque_, most.force, most.grain);
   vielto::stop_all(lmp, line);
@@ -203,9 +204,9 @@ std::string FixViEltoRecord::row() {
   for (double value : overlaps()) values.push_back(value);
   values.push_back(kinetic_energy());
   if (energy_)
-    for (double value : {work_, total(tally_.elastic), potential_energy(), total(tally_.normalDamping),
-                         total(tally_.tangentialDamping), total(tally_.sliding), total(tally_.rolling),
-                         total(tally_.twisting)})
+    for (double value :
+         {work_, total(tally_.elastic), potential_energy(), total(tally_.normalDamping),
+          total(tally_.tangentialDamping), total(tally_.sliding), total(tally_.rolling), total(tally_.twisting)})
       values.push_back(value);
   return columns(values);
 }

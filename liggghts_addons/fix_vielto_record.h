@@ -17,7 +17,7 @@
    Global vector: 1 turn, 2 rotor torque of the last row, 3 drum torque of it, 4 greatest overlap so far, 5 dt over the
    shortest half period. */
 #ifdef FIX_CLASS
-FixStyle(vielto/record, FixViEltoRecord)
+FixStyle(vielto / record, FixViEltoRecord)
 #else
 #ifndef LMP_FIX_VIELTO_RECORD_H
 #define LMP_FIX_VIELTO_RECORD_H

@@ -31,7 +31,8 @@ const double PROGRESS_SECONDS = 5;
 
 }  // namespace
 
-FixViEltoRows::FixViEltoRows(LAMMPS* lammps, int narg, char** arg) : Fix(lammps, narg, arg), watch_(lammps), tally_(vielto::tally()) {
+FixViEltoRows::FixViEltoRows(LAMMPS* lammps, int narg, char** arg)
+    : Fix(lammps, narg, arg), watch_(lammps), tally_(vielto::tally()) {
   nevery = 1;
   vector_flag = 1;
   global_freq = 1;
@@ -48,8 +49,8 @@ FixViEltoRows::~FixViEltoRows() {
 // Forces and torques of the last step, kept in restart files only.
 void FixViEltoRows::post_create() {
   const std::string name = std::string(id) + "_forces";
-  const char* words[] = {name.c_str(), "all", "property/atom", name.c_str(), "vector", "yes", "no",
-                         "no",         "0",   "0",             "0",          "0",      "0",   "0"};
+  const char* words[] = {
+      name.c_str(), "all", "property/atom", name.c_str(), "vector", "yes", "no", "no", "0", "0", "0", "0", "0", "0"};
   forces_ = modify->add_fix_property_atom(14, const_cast<char**>(words), style);
 }
 
@@ -103,7 +104,8 @@ int FixViEltoRows::setmask() { return PRE_FORCE | END_OF_STEP; }
 
 void FixViEltoRows::init() {
   if (modify->n_fixes_style("multisphere") > 0)
-    error->fix_error(FLERR, this, "counts masses and energies grain by grain, which is wrong for clumps (fix multisphere)");
+    error->fix_error(FLERR, this,
+                     "counts masses and energies grain by grain, which is wrong for clumps (fix multisphere)");
   for (Part& part : parts_)
     for (Mesh& mesh : part.meshes) {
       mesh.fix = dynamic_cast<FixMeshSurface*>(modify->find_fix_id(mesh.id.c_str()));
@@ -124,7 +126,8 @@ void FixViEltoRows::setup(int) {
 }
 
 /* Forces belong to the velocities half a step before; those that LIGGGHTS has just computed belong to the velocities of
-   the restart's step, and dashpots make a difference. With the forces of then the run goes on as if never broken off. */
+   the restart's step, and dashpots make a difference. With the forces of then the run goes on as if never broken off.
+ */
 void FixViEltoRows::take_up_forces() {
   for (int i = 0; i < atom->nlocal; i++)
     for (int d = 0; d < 3; d++) {
@@ -272,9 +275,8 @@ void FixViEltoRows::write_restart(FILE* fp) {
       forces_->array_atom[i][d] = atom->f[i][d];
       forces_->array_atom[i][d + 3] = atom->torque[i][d];
     }
-  std::vector<double> list = {static_cast<double>(start_),      overlapMaxEver_,
-                              total(tally_.normalDamping),      total(tally_.tangentialDamping),
-                              total(tally_.sliding),            total(tally_.rolling),
+  std::vector<double> list = {static_cast<double>(start_),     overlapMaxEver_,       total(tally_.normalDamping),
+                              total(tally_.tangentialDamping), total(tally_.sliding), total(tally_.rolling),
                               total(tally_.twisting)};
   for (double value : state()) list.push_back(value);
   if (comm->me == 0) {
@@ -298,5 +300,6 @@ void FixViEltoRows::restart(char* buf) {
   set_state(list + 7);
   restarted_ = forcesRead_ = true;
   if ((update->ntimestep - start_) % every_ != 0)
-    vielto::stop_all(lmp, "vielto: this restart lies inside a row of the record; write restarts every so many whole rows");
+    vielto::stop_all(lmp,
+                     "vielto: this restart lies inside a row of the record; write restarts every so many whole rows");
 }

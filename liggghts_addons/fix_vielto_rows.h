@@ -7,7 +7,8 @@
      file F
      part NAME IDs...      fixes mesh/surface/stress that make up a part
      dtLimit F             refuse a time step over F times the shortest half period of a contact; default 0.05
-     header KEY VALUE...   one `# KEY=VALUE` line more at the top of the file; repeatable; VALUE ends at the next keyword
+     header KEY VALUE...   one `# KEY=VALUE` line more at the top of the file; repeatable; VALUE ends at the next
+   keyword
 
    A lost grain and too large a time step each stop the run with one line. A restart written at the end of a row carries
    the run on as if it had never been broken off (forces, contact history, accounts); rows beyond the restart's step are
@@ -67,16 +68,16 @@ class FixViEltoRows : public Fix {
   void parse(int narg, char** arg, Keywords own);
   double number(char** arg, int i) const;
 
-  virtual void add_step() = 0;            // add this step to the interval
-  virtual std::string header_end() = 0;   // `# key=value` lines of the record, then the line of column names
-  virtual std::string row() = 0;          // values after `step`; called by all processors
+  virtual void add_step() = 0;           // add this step to the interval
+  virtual std::string header_end() = 0;  // `# key=value` lines of the record, then the line of column names
+  virtual std::string row() = 0;         // values after `step`; called by all processors
   virtual void clear_interval();
-  virtual std::string when() const = 0;   // "turn 0.25", for messages
-  virtual std::string progress() { return ""; }  // line for the screen; empty: none
+  virtual std::string when() const = 0;               // "turn 0.25", for messages
+  virtual std::string progress() { return ""; }       // line for the screen; empty: none
   virtual std::vector<double> state() { return {}; }  // to be kept in restart files; called by all processors
   virtual void set_state(const double*) {}
 
-  void add_force(Part&);  // of this step
+  void add_force(Part&);   // of this step
   double elapsed() const;  // since the fix was made, s
   double total(double mine) const;
   double kinetic_energy() const;

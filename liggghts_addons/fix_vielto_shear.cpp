@@ -63,7 +63,8 @@ std::string FixViEltoShear::header_end() {
   std::string text = "step,time_s,displacement_m";
   for (const Part& part : parts_)
     for (const char* d : {"x", "y", "z"}) text += "," + part.name + "_F" + d + "_N";
-  return text + ",plate_position_m,plate_velocity_m_s,dilation_m,porosity,overlap_mean,overlap_max,contacts,grains,kinetic_J";
+  return text +
+         ",plate_position_m,plate_velocity_m_s,dilation_m,porosity,overlap_mean,overlap_max,contacts,grains,kinetic_J";
 }
 
 std::string FixViEltoShear::row() {

@@ -13,7 +13,7 @@
    dilation_m (rise of the plate since the start) and porosity are means over the interval.
    Global vector: 1 displacement, 2 shear force lower_Fx_N of the last row, 3 greatest overlap so far. */
 #ifdef FIX_CLASS
-FixStyle(vielto/shear, FixViEltoShear)
+FixStyle(vielto / shear, FixViEltoShear)
 #else
 #ifndef LMP_FIX_VIELTO_SHEAR_H
 #define LMP_FIX_VIELTO_SHEAR_H

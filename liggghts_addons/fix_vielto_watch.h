@@ -6,7 +6,7 @@
 
    Grains are expected to stay: make the fix after they have been inserted. */
 #ifdef FIX_CLASS
-FixStyle(vielto/watch, FixViEltoWatch)
+FixStyle(vielto / watch, FixViEltoWatch)
 #else
 #ifndef LMP_FIX_VIELTO_WATCH_H
 #define LMP_FIX_VIELTO_WATCH_H

@@ -23,9 +23,11 @@ void remove_session_folder() {
 }
 
 /* Open MPI keeps a session folder, which all single processes of a user share: one that ends may remove it from under
-   one that starts, which then fails in MPI_Init. A campaign starts many, so a process without a launcher gets its own. */
+   one that starts, which then fails in MPI_Init. A campaign starts many, so a process without a launcher gets its own.
+ */
 void own_session_folder() {
-  for (const char* launcher : {"OMPI_COMM_WORLD_RANK", "PMIX_RANK", "PMI_RANK", "SLURM_PROCID", "OMPI_MCA_orte_tmpdir_base"})
+  for (const char* launcher :
+       {"OMPI_COMM_WORLD_RANK", "PMIX_RANK", "PMI_RANK", "SLURM_PROCID", "OMPI_MCA_orte_tmpdir_base"})
     if (getenv(launcher)) return;
   std::string name = (std::filesystem::temp_directory_path() / "liggghts-XXXXXX").string();
   if (!mkdtemp(&name[0])) return;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /* LIGGGHTS adapter of the law CohFrictPhys (cohfrict_law.h). `pair_style gran model cohfrict ...`
 
-   The whole law in one model, without `tangential` and `rolling_friction`: a bond that breaks in shear changes the normal
-   force too, and a stretched bond pulls where LIGGGHTS sees no contact any more.
+   The whole law in one model, without `tangential` and `rolling_friction`: a bond that breaks in shear changes the
+   normal force too, and a stretched bond pulls where LIGGGHTS sees no contact any more.
 
    Settings:
      bondNewContacts on|off   on: every new contact coheres; off (as Yade): none does, friction only
@@ -11,8 +11,8 @@
 
    Properties: cohfrict_properties.h.
 
-   History, per contact: tangential force (3), rolling moment (3), both on body i; twisting moment along n; state: 0 none,
-   1 bonded, 2 touching. */
+   History, per contact: tangential force (3), rolling moment (3), both on body i; twisting moment along n; state: 0
+   none, 1 bonded, 2 touching. */
 #ifdef NORMAL_MODEL
 NORMAL_MODEL(COHFRICT, cohfrict, 21)
 #else
@@ -110,7 +110,8 @@ class NormalModel<COHFRICT> : public NormalModelBase {
   enum { STATE = 7, VALUES = 8 };
   enum { NONE = 0, BONDED = 1, TOUCHING = 2 };
 
-  // Forces of one contact, touching or stretched; false where it has ended, then without force and with an empty history.
+  // Forces of one contact, touching or stretched; false where it has ended, then without force and with an empty
+  // history.
   template <class Data>
   bool evaluate(const Data& data, const vielto::Vec& n, double overlap, bool bonded, double& Fn, ForceData& i_forces,
                 ForceData& j_forces) {
@@ -138,7 +139,8 @@ class NormalModel<COHFRICT> : public NormalModelBase {
     // between runs forces are computed anew, but nothing moves on
     const bool moves = data.computeflag && data.shearupdate;
     cohfrict::Energy energy;
-    const bool holds = cohfrict::advance(c, m, moves ? dt : 0.0, memory, load, tally_.energy && moves ? &energy : nullptr);
+    const bool holds =
+        cohfrict::advance(c, m, moves ? dt : 0.0, memory, load, tally_.energy && moves ? &energy : nullptr);
     if (moves) {
       if (tally_.energy) book(energy, vielto::share(data, atom->nlocal, force->newton_pair));
       for (int k = 0; k < VALUES; k++) history[k] = 0.0;

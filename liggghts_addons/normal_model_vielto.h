@@ -62,8 +62,8 @@ class NormalModel<VIELTO> : public NormalModelBase {
   void connectToProperties(PropertyRegistry&) {
     pairs_.read(lmp);
     if (force->cg_active()) error->cg(FLERR, "model vielto");
-    // LIGGGHTS' pair loop calls surfacesClose out to this multiple of the radii: without it the history of a contact that
-    // has ended would still be there when the grains meet again
+    // LIGGGHTS' pair loop calls surfacesClose out to this multiple of the radii: without it the history of a contact
+    // that has ended would still be there when the grains meet again
     neighbor->register_contact_dist_factor(1.01);
   }
 
@@ -73,8 +73,7 @@ class NormalModel<VIELTO> : public NormalModelBase {
   VIELTO_INLINE void surfacesIntersect(SurfacesIntersectData& sidata, ForceData& i_forces, ForceData& j_forces) {
     if (sidata.contact_flags) *sidata.contact_flags |= CONTACT_NORMAL_MODEL;
     const double radj = sidata.is_wall ? wallRadiusFactor_ * sidata.radi : sidata.radj;
-    const vielto::Stiffness s =
-        vielto::stiffness(pairs_(sidata.itype, sidata.jtype), sidata.radi, radj, sidata.meff);
+    const vielto::Stiffness s = vielto::stiffness(pairs_(sidata.itype, sidata.jtype), sidata.radi, radj, sidata.meff);
     double Fn = vielto::normal_force(springFactor_, s, sidata.deltan, sidata.vn);
     if (limitForce_ && Fn < 0.0) Fn = 0.0;
 

@@ -6,8 +6,8 @@
                              on: -2 beta_s sqrt(k_r I_eff) w_r while the rolling spring is not capped, and the like for
                              twisting with k_tw; I_eff = I_1 I_2/(I_1 + I_2), I = 2/5 m R^2 (wall: I_1)
 
-     wallRolling VALUE       0 (as printed: the smaller mu_r of both bodies); else what walls add to it: a flat grain that
-                             lies on a wall does not roll as it does on its like
+     wallRolling VALUE       0 (as printed: the smaller mu_r of both bodies); else what walls add to it: a flat grain
+   that lies on a wall does not roll as it does on its like
 
    History, per contact: rolling moment on body i (3 values, N m) and twisting moment along n (1 value, N m).
    On a mesh wall the couples are handed to the mesh's torque sum. Needs `model vielto`. */
@@ -101,7 +101,9 @@ class RollingModel<ROLLING_VIELTO> : public RollingModelBase {
     }
 
     Vec M = Mr + Mtw * n;
-    if (rollingDashpot_) M = M + dashpot(SurfacesIntersectData(sidata), pair, R1, R2, kr, ktw, rolling ? Vec{0, 0, 0} : wr, twisting ? 0.0 : wtw, n);
+    if (rollingDashpot_)
+      M = M + dashpot(SurfacesIntersectData(sidata), pair, R1, R2, kr, ktw, rolling ? Vec{0, 0, 0} : wr,
+                      twisting ? 0.0 : wtw, n);
 
     const double area = sidata.is_wall ? sidata.area_ratio : 1.0;
     i_forces.delta_torque[0] += area * M.x;
@@ -137,8 +139,9 @@ class RollingModel<ROLLING_VIELTO> : public RollingModelBase {
   }
 
   // Viscous moments; the loss is booked with rolling and twisting.
-  VIELTO_NOINLINE vielto::Vec dashpot(const SurfacesIntersectData& sidata, const vielto::Pair& pair, double R1, double R2, double kr,
-                      double ktw, const vielto::Vec& wr, double wtw, const vielto::Vec& n) {
+  VIELTO_NOINLINE vielto::Vec dashpot(const SurfacesIntersectData& sidata, const vielto::Pair& pair, double R1,
+                                      double R2, double kr, double ktw, const vielto::Vec& wr, double wtw,
+                                      const vielto::Vec& n) {
     const double I1 = 0.4 * sidata.mi * R1 * R1;
     const double I2 = 0.4 * sidata.mj * R2 * R2;
     const double Ieff = sidata.is_wall ? I1 : I1 * I2 / (I1 + I2);

@@ -115,7 +115,7 @@ class TangentialModel<TANGENTIAL_VIELTO> : public TangentialModelBase {
 
  private:
   VIELTO_NOINLINE void account(const SurfacesIntersectData& sidata, const vielto::Vec& old, const vielto::Vec& spring,
-               const vielto::Vec& vs, bool sliding, double dt) {
+                               const vielto::Vec& vs, bool sliding, double dt) {
     const double share = vielto::share(sidata, atom->nlocal, force->newton_pair);
     tally_.elastic += share * 0.5 * dot(spring, spring) / sidata.kt;
     tally_.sliding += share * vielto::capped_spring_loss(old, spring, vs, dt, sidata.kt);

@@ -89,7 +89,8 @@ std::string joined(int narg, char** arg, int from) {
 // Step in the name of a restart file, N.restart; -1 for another file.
 long long step_of(const fs::path& file) {
   const std::string name = file.stem().string();
-  if (file.extension() != ".restart" || name.empty() || name.find_first_not_of("0123456789") != std::string::npos) return -1;
+  if (file.extension() != ".restart" || name.empty() || name.find_first_not_of("0123456789") != std::string::npos)
+    return -1;
   return atoll(name.c_str());
 }
 
@@ -167,14 +168,17 @@ void ViEltoCommand::command(int narg, char** arg) {
   else if (what == "close" && narg == 2)
     close(narg, arg);
   else
-    vielto::stop_all(lmp, "vielto: unknown form of this command; use error, half_period, shell, prime, words, property, pair_property, lacks, check, provisional, clump, grains, open, resume, bed or close");
+    vielto::stop_all(lmp,
+                     "vielto: unknown form of this command; use error, half_period, shell, prime, words, property, "
+                     "pair_property, lacks, check, provisional, clump, grains, open, resume, bed or close");
 }
 
 void ViEltoCommand::half_period(int, char** arg) {
   if (std::string(arg[2]) != "radius" || std::string(arg[4]) != "density")
     vielto::stop_all(lmp, "vielto: write 'vielto half_period NAME radius R density RHO'");
   if (vielto::settings().law == vielto::NO_LAW)
-    vielto::stop_all(lmp, "vielto: half_period needs 'pair_style gran model vielto ...' (or another law of this package) before it");
+    vielto::stop_all(
+        lmp, "vielto: half_period needs 'pair_style gran model vielto ...' (or another law of this package) before it");
   const double radius = force->numeric(FLERR, arg[3]), density = force->numeric(FLERR, arg[5]);
   if (!(radius > 0 && density > 0)) vielto::stop_all(lmp, "vielto: half_period needs a radius and a density > 0");
   char value[64];
@@ -203,7 +207,8 @@ void ViEltoCommand::shell(int narg, char** arg) {
   const std::string line = joined(narg, arg, 1);
   std::string fault;
   if (comm->me == 0 && system(line.c_str()) != 0)
-    fault = "vielto: '" + std::string(arg[1]) + (narg > 2 ? std::string(" ") + arg[2] : "") + "' failed; its own line stands above";
+    fault = "vielto: '" + std::string(arg[1]) + (narg > 2 ? std::string(" ") + arg[2] : "") +
+            "' failed; its own line stands above";
   stop_if(fault);
 }
 
@@ -232,7 +237,8 @@ void ViEltoCommand::pair_property(int, char** arg) {
   const std::string name = arg[1], grain = arg[2], wall = arg[3];
   if (atom->ntypes < 2 || atom->ntypes > 3)
     vielto::stop_all(lmp, "vielto: pair_property needs a box of two types (grain, wall) or three (and fixed grains)");
-  std::string line = "fix " + name + " all property/global " + name + " peratomtypepair " + std::to_string(atom->ntypes);
+  std::string line =
+      "fix " + name + " all property/global " + name + " peratomtypepair " + std::to_string(atom->ntypes);
   for (int i = 1; i <= atom->ntypes; i++)
     for (int j = 1; j <= atom->ntypes; j++) line += " " + (i == 2 || j == 2 ? wall : grain);
   input->one(line.c_str());
@@ -251,8 +257,10 @@ void ViEltoCommand::lacks(int narg, char** arg) {
         const char* now = input->variable->retrieve(&name[0]);
         if (free && std::find(given.begin(), given.end(), name) != given.end())
           fault = law + " has no counterpart of " + name + " (cases/laws/" + arg[1] + ".in); leave out -var " + name;
-        else if (!free && now && now != value && !(is_number(now) && is_number(value) && std::stod(now) == std::stod(value)))
-          fault = law + " has no counterpart of " + name + " " + now + " (cases/laws/" + arg[1] + ".in); give -var " + name + " " + value;
+        else if (!free && now && now != value &&
+                 !(is_number(now) && is_number(value) && std::stod(now) == std::stod(value)))
+          fault = law + " has no counterpart of " + name + " " + now + " (cases/laws/" + arg[1] + ".in); give -var " +
+                  name + " " + value;
       }
     }
   }
@@ -272,8 +280,8 @@ void ViEltoCommand::check(int narg, char** arg) {
           const bool good = words.empty() ? !is_number(p.value) || is_number(now)
                                           : std::find(words.begin(), words.end(), now) != words.end();
           if (!good)
-            fault = "vielto: " + name + " is '" + now + "'; give " + (words.empty() ? "a number (" + p.unit + ")" : p.unit) +
-                    " with -var " + name;
+            fault = "vielto: " + name + " is '" + now + "'; give " +
+                    (words.empty() ? "a number (" + p.unit + ")" : p.unit) + " with -var " + name;
         }
     } catch (const vielto::BadInput& e) {
       fault = std::string("vielto: ") + e.what();
@@ -315,10 +323,11 @@ void ViEltoCommand::clump(int, char** arg) {
       const auto& I = shape.inertia;
       // ntry: LIGGGHTS still counts which sphere has which share of the volume, which nothing here uses
       const int length = snprintf(words, sizeof words,
-               "nspheres %d ntry 100000 spheres file %s scale 1 mass %.12g inertia_tensor %.12g %.12g %.12g %.12g %.12g %.12g "
-               "use_density",
-               static_cast<int>(shape.spheres.size()), out.c_str(), mass, mass * I[0], mass * I[1], mass * I[2], mass * I[3],
-               mass * I[4], mass * I[5]);
+                                  "nspheres %d ntry 100000 spheres file %s scale 1 mass %.12g inertia_tensor %.12g "
+                                  "%.12g %.12g %.12g %.12g %.12g "
+                                  "use_density",
+                                  static_cast<int>(shape.spheres.size()), out.c_str(), mass, mass * I[0], mass * I[1],
+                                  mass * I[2], mass * I[3], mass * I[4], mass * I[5]);
       if (length >= static_cast<int>(sizeof words)) fault = "vielto: the run folder's path is too long: " + out;
       smallest = shape.smallest();
     } catch (const vielto::BadInput& e) {
@@ -375,7 +384,8 @@ void ViEltoCommand::open(int narg, char** arg) {
   if (comm->me == 0) {
     std::error_code code;
     if (fs::exists(folder)) {
-      fault = "vielto: the run folder " + folder.string() + " is there already; remove it or name another with -var run";
+      fault =
+          "vielto: the run folder " + folder.string() + " is there already; remove it or name another with -var run";
     } else {
       nlohmann::json run = {{"schema", 1},
                             {"status", "running"},
@@ -403,7 +413,8 @@ void ViEltoCommand::open(int narg, char** arg) {
       }
       for (const std::string& name : names_on_command_line())
         if (fault.empty() && !known.count(name))
-          fault = "vielto: -var " + name + ": there is no such parameter; see " + arg[3] + " and the cards for the names";
+          fault =
+              "vielto: -var " + name + ": there is no such parameter; see " + arg[3] + " and the cards for the names";
       if (fault.empty()) {
         fs::remove_all(partial, code);
         if (!fs::create_directories(partial, code))
@@ -467,7 +478,8 @@ void ViEltoCommand::bed(int narg, char** arg) {
       file = (fs::path(folder) / "bed.restart").string();
       if (!fs::exists(file)) throw std::runtime_error("bed.restart is missing");
     } catch (const std::exception& e) {
-      fault = "vielto: cannot take the bed of " + folder + ": " + e.what() + "; name a run of the same bed with -var bed, or none";
+      fault = "vielto: cannot take the bed of " + folder + ": " + e.what() +
+              "; name a run of the same bed with -var bed, or none";
     }
   }
   stop_if(fault);

@@ -63,23 +63,23 @@ VIELTO_INLINE Vec cross(const Vec& a, const Vec& b) {
 
 // What one body brings into a contact.
 struct Material {
-  double youngsModulus;           // E, Pa
-  double stiffnessRatio;          // nu = k_s/k_n, 1; not an elastic constant
-  double frictionAngle;           // phi', rad
-  double normalDamping;           // beta_n, 1
-  double tangentialDamping;       // beta_s, 1
-  double rollingStiffnessFactor;  // beta_kr, 1
-  double twistingStiffnessFactor; // beta_ktw, 1
-  double rollingResistance;       // mu_r, 1
-  double twistingResistance;      // mu_tw, 1
+  double youngsModulus;            // E, Pa
+  double stiffnessRatio;           // nu = k_s/k_n, 1; not an elastic constant
+  double frictionAngle;            // phi', rad
+  double normalDamping;            // beta_n, 1
+  double tangentialDamping;        // beta_s, 1
+  double rollingStiffnessFactor;   // beta_kr, 1
+  double twistingStiffnessFactor;  // beta_ktw, 1
+  double rollingResistance;        // mu_r, 1
+  double twistingResistance;       // mu_tw, 1
 };
 
 // Two materials after the mixing rules; made once per pair of types.
 struct Pair {
   double E1, E2;
   double nu1, nu2;
-  bool equalRatio;  // nu1 == nu2, so that k_s = nu k_n saves a division and a root
-  double sqrtRatio; // sqrt(nu), where equalRatio
+  bool equalRatio;   // nu1 == nu2, so that k_s = nu k_n saves a division and a root
+  double sqrtRatio;  // sqrt(nu), where equalRatio
   double betaN, betaS;
   double tanPhi;
   double betaKr, betaKtw;
@@ -159,8 +159,8 @@ VIELTO_INLINE bool cap(Vec& v, double limit) {
 }
 
 // Spring part of the tangential force after this step; `stored` already turned. `sliding` tells the cap acted.
-VIELTO_INLINE Vec tangential_spring(const Stiffness& s, const Vec& stored, const Vec& vs, double dt, double slidingLimit,
-                             bool& sliding) {
+VIELTO_INLINE Vec tangential_spring(const Stiffness& s, const Vec& stored, const Vec& vs, double dt,
+                                    double slidingLimit, bool& sliding) {
   Vec f = stored - (s.ks * dt) * vs;
   sliding = cap(f, slidingLimit);
   return f;
@@ -169,8 +169,12 @@ VIELTO_INLINE Vec tangential_spring(const Stiffness& s, const Vec& stored, const
 // Length in the moments' caps: 2 R_1 R_2/(R_1 + R_2), m.
 VIELTO_INLINE double rolling_length(double R1, double R2) { return 2 * R1 * R2 / (R1 + R2); }
 
-VIELTO_INLINE double rolling_stiffness(const Pair& p, double kn, double R1, double R2) { return p.betaKr * kn * R1 * R2; }
-VIELTO_INLINE double twisting_stiffness(const Pair& p, double ks, double R1, double R2) { return p.betaKtw * ks * R1 * R2; }
+VIELTO_INLINE double rolling_stiffness(const Pair& p, double kn, double R1, double R2) {
+  return p.betaKr * kn * R1 * R2;
+}
+VIELTO_INLINE double twisting_stiffness(const Pair& p, double ks, double R1, double R2) {
+  return p.betaKtw * ks * R1 * R2;
+}
 
 // Spring part of the rolling moment after this step; `wr` is the relative spin less its part along n.
 VIELTO_INLINE Vec rolling_spring(double kr, const Vec& stored, const Vec& wr, double dt, double limit, bool& rolling) {
@@ -201,7 +205,9 @@ inline double capped_spring_loss(double old, double now, double rate, double dt,
 }
 
 // Contact time pi/omega_0 of the undamped normal oscillator, s.
-inline double normal_contact_time(double cn, double kn, double mEff) { return std::acos(-1.0) * std::sqrt(mEff / (cn * kn)); }
+inline double normal_contact_time(double cn, double kn, double mEff) {
+  return std::acos(-1.0) * std::sqrt(mEff / (cn * kn));
+}
 
 // The springs of one contact: normal and tangential, N/m, rolling and twisting, N m.
 struct Springs {

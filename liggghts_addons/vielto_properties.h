@@ -46,14 +46,10 @@ enum { YOUNG, RATIO, FRICTION, DAMP_N, DAMP_S, BETA_KR, BETA_KTW, MU_R, MU_TW, N
 inline const PropertyRule* property_rules() {
   static const double inf = std::numeric_limits<double>::infinity();
   static const PropertyRule rules[N_PROPERTIES] = {
-      {"youngsModulus", 0, inf, false, false, "Pa"},
-      {"stiffnessRatio", 0, 1, false, true, "1"},
-      {"frictionAngle", 0, 90, true, false, "deg"},
-      {"normalDamping", 0, inf, true, false, "1"},
-      {"tangentialDamping", 0, inf, true, false, "1"},
-      {"rollingStiffnessFactor", 0, inf, true, false, "1"},
-      {"twistingStiffnessFactor", 0, inf, true, false, "1"},
-      {"rollingResistance", 0, inf, true, false, "1"},
+      {"youngsModulus", 0, inf, false, false, "Pa"},         {"stiffnessRatio", 0, 1, false, true, "1"},
+      {"frictionAngle", 0, 90, true, false, "deg"},          {"normalDamping", 0, inf, true, false, "1"},
+      {"tangentialDamping", 0, inf, true, false, "1"},       {"rollingStiffnessFactor", 0, inf, true, false, "1"},
+      {"twistingStiffnessFactor", 0, inf, true, false, "1"}, {"rollingResistance", 0, inf, true, false, "1"},
       {"twistingResistance", 0, inf, true, false, "1"},
   };
   return rules;
@@ -63,8 +59,7 @@ inline const PropertyRule* property_rules() {
 inline LAMMPS_NS::FixPropertyGlobal* find_property(LAMMPS_NS::LAMMPS* lmp, const char* name) {
   static const char* const forms[] = {"peratomtype", "vector", "scalar", "peratomtypepair", "matrix"};
   for (int f = 0; f < 5; f++) {
-    LAMMPS_NS::Fix* fix =
-        lmp->modify->find_fix_property(name, "property/global", forms[f], 0, 0, "vielto", false);
+    LAMMPS_NS::Fix* fix = lmp->modify->find_fix_property(name, "property/global", forms[f], 0, 0, "vielto", false);
     if (fix) return static_cast<LAMMPS_NS::FixPropertyGlobal*>(fix);
   }
   return NULL;
@@ -95,8 +90,8 @@ inline std::vector<double> read_property(LAMMPS_NS::LAMMPS* lmp, const PropertyR
     const bool tooLow = rule.lowAllowed ? v < rule.low : v <= rule.low;
     const bool tooHigh = rule.highAllowed ? v > rule.high : v >= rule.high;
     if (isnan(v) || isinf(v) || tooLow || tooHigh) {
-      snprintf(line, sizeof line, "vielto: property %s of type %d is %g, out of its range %s%g, %g%s (%s)", rule.name, t,
-               v, rule.lowAllowed ? "[" : "(", rule.low, rule.high, rule.highAllowed ? "]" : ")", rule.unit);
+      snprintf(line, sizeof line, "vielto: property %s of type %d is %g, out of its range %s%g, %g%s (%s)", rule.name,
+               t, v, rule.lowAllowed ? "[" : "(", rule.low, rule.high, rule.highAllowed ? "]" : ")", rule.unit);
       stop_all(lmp, line);
     }
     values[t] = v;

@@ -95,8 +95,8 @@ template <int Normal, int Cohesion>
 using StockStyle = GranStyle<Normal, TANGENTIAL_HISTORY, Cohesion, ROLLING_EPSD2, SURFACE_DEFAULT>;
 
 // Styles with cohesion in contact only take our pair loop, which needs the model of LIGGGHTS' own.
-#define VIELTO_TOUCHING(NAME, ...)                     \
-  using NAME = __VA_ARGS__;                            \
+#define VIELTO_TOUCHING(NAME, ...) \
+  using NAME = __VA_ARGS__;        \
   template struct Opened<ModelOfPair<NAME>, &PairStyles::Granular<ContactModel<NAME>>::cmodel>;
 VIELTO_TOUCHING(Plain, ViElToStyle<COHESION_OFF, ROLLING_OFF>)
 VIELTO_TOUCHING(PlainRolling, ViElToStyle<COHESION_OFF, ROLLING_VIELTO>)

@@ -18,14 +18,14 @@ struct Settings {
 /* Sums since the fix last cleared them; energies in J, positive where energy leaves the grains.
    Pairs across two processors are evaluated by both and count half on each. */
 struct Tally {
-  bool overlaps;          // measure the mean overlap in this step
-  bool energy;            // keep the energy accounts
-  double contacts;        // contacts measured
-  double overlapSum;      // of overlap over diameter of the smaller grain
-  double overlapMax;      // of the same; kept in every step
-  double wallForce;       // greatest normal force on a wall in this step, N, and the grain it acts on
+  bool overlaps;      // measure the mean overlap in this step
+  bool energy;        // keep the energy accounts
+  double contacts;    // contacts measured
+  double overlapSum;  // of overlap over diameter of the smaller grain
+  double overlapMax;  // of the same; kept in every step
+  double wallForce;   // greatest normal force on a wall in this step, N, and the grain it acts on
   int wallGrain;
-  double elastic;         // energy stored in all springs in this step
+  double elastic;  // energy stored in all springs in this step
   double normalDamping;
   double tangentialDamping;
   double sliding;

@@ -73,9 +73,10 @@ ConeFit cone_fit(const Heap& heap) {
   std::size_t to = from;
   while (to < result.profile.size() && result.profile[to].z > kFlankFoot * result.height) ++to;
   if (to - from < kLeastFlank)
-    throw BadInput(heap.path, 0,
-                   fmt::format("the heap's flank is {} cells of a diameter long, {} are needed", to - from, kLeastFlank),
-                   "run with smaller or more grains");
+    throw BadInput(
+        heap.path, 0,
+        fmt::format("the heap's flank is {} cells of a diameter long, {} are needed", to - from, kLeastFlank),
+        "run with smaller or more grains");
   result.flank_from = static_cast<double>(from) * d;
   result.flank_to = static_cast<double>(to) * d;
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Grains of a heap at rest, `heap.csv`, schema 1: lines `# key=value`, then x_m,y_m,z_m,radius_m of each grain, or of each
-// sphere of a clump; z counts from the base, the cylinder's axis is x = y = 0. Errors: BadInput as record_file.h, and for no grain.
+// Grains of a heap at rest, `heap.csv`, schema 1: lines `# key=value`, then x_m,y_m,z_m,radius_m of each grain, or of
+// each sphere of a clump; z counts from the base, the cylinder's axis is x = y = 0. Errors: BadInput as record_file.h,
+// and for no grain.
 #pragma once
 
 #include <string>

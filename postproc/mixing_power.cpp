@@ -90,16 +90,18 @@ RunQuality run_quality(const TorqueRecord& r, const AveragedTurns& turns, const 
 
 MeanUncertainty mean_over(const std::vector<double>& signal, const AveragedTurns& turns) {
   const auto begin = signal.begin() + static_cast<std::ptrdiff_t>(turns.first) * kPhases;
-  return mean_uncertainty(std::vector<double>(begin, begin + static_cast<std::ptrdiff_t>(turns.count) * kPhases), kPhases);
+  return mean_uncertainty(std::vector<double>(begin, begin + static_cast<std::ptrdiff_t>(turns.count) * kPhases),
+                          kPhases);
 }
 
-AveragedTurns steady_turns(const std::string& path, int first_turn, const std::vector<double>& signal, int asked, int block) {
+AveragedTurns steady_turns(const std::string& path, int first_turn, const std::vector<double>& signal, int asked,
+                           int block) {
   const int turns = static_cast<int>(signal.size()) / kPhases * block;
   const SteadyPart part = find_steady_part(signal, kPhases, std::max(kLeastAveragedTurns, (asked + block - 1) / block));
   const auto refuse = [&](const std::string& why, int more) {
     throw BadInput(path, 0,
-                   fmt::format("has {} whole turn{}{}, and {} steady ones are asked for", turns,
-                               turns == 1 ? "" : "s", why, asked),
+                   fmt::format("has {} whole turn{}{}, and {} steady ones are asked for", turns, turns == 1 ? "" : "s",
+                               why, asked),
                    fmt::format("run at least {} more", more));
   };
   double mean = 0;
@@ -111,10 +113,12 @@ AveragedTurns steady_turns(const std::string& path, int first_turn, const std::v
       refuse("", asked - turns);
       break;
     case Steadiness::start_up_reaches_limit:
-      refuse(fmt::format(", the start-up still shows in turn {}", first_turn + part.first * block), (part.first + 1) * block);
+      refuse(fmt::format(", the start-up still shows in turn {}", first_turn + part.first * block),
+             (part.first + 1) * block);
       break;
     case Steadiness::trend:
-      refuse(fmt::format(", the last {} still drift by {:+.2g} % a turn", part.count * block, 100 * part.slope / mean / block),
+      refuse(fmt::format(", the last {} still drift by {:+.2g} % a turn", part.count * block,
+                         100 * part.slope / mean / block),
              asked);
       break;
     case Steadiness::steady:

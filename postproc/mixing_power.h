@@ -31,10 +31,10 @@
 
 namespace vielto {
 
-constexpr double kScaleUncertainty = 0.05;  // relative
-constexpr double kMostEnergyGap = 0.01;                             // of the work
-constexpr double kMostSpeedDifference = 1e-3;                       // loaded to idling record
-constexpr double kFewSamples = 10;  // effective samples below which u is uncertain itself
+constexpr double kScaleUncertainty = 0.05;     // relative
+constexpr double kMostEnergyGap = 0.01;        // of the work
+constexpr double kMostSpeedDifference = 1e-3;  // loaded to idling record
+constexpr double kFewSamples = 10;             // effective samples below which u is uncertain itself
 
 // The turns averaged: `first` of the record's whole turns left out, `count` kept.
 struct AveragedTurns {
@@ -61,10 +61,10 @@ struct MixingPower {
   int turns_total = 0;
   int turn_first = 0;  // turns since the start of the rotation when the average begins
   AveragedTurns averaged;
-  MeanUncertainty torque;                            // whole drum, N m
-  MeanUncertainty power;                             // W
-  std::optional<MeanUncertainty> loaded, idle;       // W
-  std::array<MeanUncertainty, kParts.size()> parts;  // torque, whole drum, N m
+  MeanUncertainty torque;                                    // whole drum, N m
+  MeanUncertainty power;                                     // W
+  std::optional<MeanUncertainty> loaded, idle;               // W
+  std::array<MeanUncertainty, kParts.size()> parts;          // torque, whole drum, N m
   std::optional<std::array<double, kLosses.size()>> losses;  // dissipated power of the whole drum, W; if recorded
   double n_p = 0, n_pc = 0, n_c = 0, fr_m = 0;
   double thesis_power = 0;  // W

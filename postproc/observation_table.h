@@ -62,8 +62,8 @@ std::optional<std::string> observable_unit(const std::string& apparatus, const s
 
 std::vector<Observation> read_observations(const std::string& path);
 
-// The same for a table of any length: `use` gets the rows of one test after another, with the line of each. Memory grows
-// by 8 bytes a test. The rows of a test must stand together; otherwise BadInput, after the last test.
+// The same for a table of any length: `use` gets the rows of one test after another, with the line of each. Memory
+// grows by 8 bytes a test. The rows of a test must stand together; otherwise BadInput, after the last test.
 struct NumberedObservation {
   Observation row;
   int line = 0;

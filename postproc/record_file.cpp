@@ -80,8 +80,7 @@ Columns::Columns(const std::string& path, int line, const std::string& text) : p
 
 std::size_t Columns::at(const std::string& name) const {
   const auto found = index_.find(name);
-  if (found == index_.end())
-    throw BadInput(path_, line_, name, "is missing from the header", "record this column too");
+  if (found == index_.end()) throw BadInput(path_, line_, name, "is missing from the header", "record this column too");
   return found->second;
 }
 

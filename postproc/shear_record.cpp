@@ -44,10 +44,14 @@ ShearRecord read_shear_record(const std::string& path) {
   const std::size_t step = c.at("step"), grains = c.at("grains");
   const std::size_t lower_z = c.at("lower_Fz_N"), upper_z = c.at("upper_Fz_N"), plate_z = c.at("plate_Fz_N");
   const std::vector<std::pair<std::size_t, std::vector<double>*>> kept = {
-      {c.at("displacement_m"), &r.displacement},  {c.at("lower_Fx_N"), &r.shear_force},
-      {c.at("upper_Fx_N"), &r.upper_force},       {c.at("plate_Fx_N"), &r.plate_side_force},
-      {c.at("plate_velocity_m_s"), &r.plate_velocity}, {c.at("dilation_m"), &r.dilation},
-      {c.at("porosity"), &r.porosity},            {c.at("overlap_mean"), &r.overlap_mean},
+      {c.at("displacement_m"), &r.displacement},
+      {c.at("lower_Fx_N"), &r.shear_force},
+      {c.at("upper_Fx_N"), &r.upper_force},
+      {c.at("plate_Fx_N"), &r.plate_side_force},
+      {c.at("plate_velocity_m_s"), &r.plate_velocity},
+      {c.at("dilation_m"), &r.dilation},
+      {c.at("porosity"), &r.porosity},
+      {c.at("overlap_mean"), &r.overlap_mean},
       {c.at("overlap_max"), &r.overlap_max}};
   double expected = 0;
   std::vector<double> row;

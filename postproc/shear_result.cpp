@@ -24,8 +24,9 @@ std::vector<double> block_means(const std::vector<double>& values) {
   std::vector<double> means;
   for (std::size_t b = 0; b < kShearBlocks; ++b) {
     const std::size_t from = b * values.size() / kShearBlocks, to = (b + 1) * values.size() / kShearBlocks;
-    means.push_back(std::accumulate(values.begin() + static_cast<long>(from), values.begin() + static_cast<long>(to), 0.0) /
-                    static_cast<double>(to - from));
+    means.push_back(
+        std::accumulate(values.begin() + static_cast<long>(from), values.begin() + static_cast<long>(to), 0.0) /
+        static_cast<double>(to - from));
   }
   return means;
 }
@@ -44,10 +45,11 @@ void add_warnings(ShearResult& r) {
   over("mean overlap over diameter", r.overlap_mean, kMostOverlapMean);
   over("greatest overlap over diameter", r.overlap_max, kMostOverlapMax);
   over("number of lost grains", std::fabs(r.lost_grains), 0);
-  over("force on halves and plate left over, part of the shear force,", std::fabs(r.force_imbalance), kMostForceImbalance);
+  over("force on halves and plate left over, part of the shear force,", std::fabs(r.force_imbalance),
+       kMostForceImbalance);
   if (!r.is_steady)
-    r.warnings.push_back(fmt::format("the shear stress is not steady (drift {:.2g} % a mm): raise displacement",
-                                     100 * r.drift));
+    r.warnings.push_back(
+        fmt::format("the shear stress is not steady (drift {:.2g} % a mm): raise displacement", 100 * r.drift));
 }
 
 }  // namespace

@@ -5,14 +5,16 @@
 //   blocks           the record is cut into kShearBlocks equal parts of displacement; a block is the mean of its rows
 //   peak             the greatest block mean; u: standard deviation of a block mean in the steady part
 //   steady part      steady_part.h on the block means (marginal standard error rule, at most the first half left out),
-//                    with its test for a trend; a record that fails it is marked, since a small box need not become steady
+//                    with its test for a trend; a record that fails it is marked, since a small box need not become
+//                    steady
 //   steady           mean over that part, with the uncertainty of an autocorrelated mean (mean_uncertainty.h)
 //   friction         tau_steady over the nominal normal stress (the plate's weight over A), and over the normal stress
 //                    measured on the shear plane in the same part, which holds what the walls carry
 //   plate force      fluctuation: standard deviation over mean of the rows of the steady part; departure: the greatest
 //                    difference of a row, and of a block mean, from the weight, over the weight, in the whole record
 //   inertial number  I = gamma' d sqrt(rho/sigma) with gamma' = V / (kShearBand d): the shear band is taken as
-//                    kShearBand diameters thick, so I = V/kShearBand sqrt(rho/sigma). Quasi-static: I < 0.001 (GDR MiDi)
+//                    kShearBand diameters thick, so I = V/kShearBand sqrt(rho/sigma). Quasi-static: I < 0.001 (GDR
+//                    MiDi)
 //
 // u is the uncertainty within one run; seeds differ by more. Sources: GDR MiDi 2004, Eur. Phys. J. E 14:341 (inertial
 // number and its quasi-static range).
@@ -28,9 +30,9 @@
 namespace vielto {
 
 constexpr int kShearBlocks = 40;
-constexpr double kShearBand = 10;            // diameters
-constexpr double kQuasiStatic = 1e-3;        // inertial number
-constexpr double kMostForceImbalance = 0.02; // of the shear force
+constexpr double kShearBand = 10;             // diameters
+constexpr double kQuasiStatic = 1e-3;         // inertial number
+constexpr double kMostForceImbalance = 0.02;  // of the shear force
 
 struct ShearResult {
   ShearRecordHeader header;

@@ -66,8 +66,8 @@ struct EnergyAccounts {
 struct TorqueRecord {
   std::string path;
   TorqueRecordHeader header;
-  int first_turn = 0;     // turns since the start of the rotation when the first whole turn begins
-  int turns = 0;          // whole turns; of a long record: blocks of turns_per_block whole turns
+  int first_turn = 0;  // turns since the start of the rotation when the first whole turn begins
+  int turns = 0;       // whole turns; of a long record: blocks of turns_per_block whole turns
   int turns_per_block = 1;
   double start_step = 0;  // at which the rotation began
   double intervals_per_turn = 0;

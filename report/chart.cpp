@@ -76,7 +76,8 @@ void Chart::points(const std::string& label, const std::vector<double>& x, const
 void Chart::shade(const std::string& label, double from, double to, double low, double high) {
   auto* area = vtkPlotArea::SafeDownCast(chart_->AddPlot(vtkChart::AREA));
   // an area of two points would not be drawn
-  area->SetInputData(table({{"x", {from, 0.5 * (from + to), to}}, {"low", {low, low, low}}, {label, {high, high, high}}}));
+  area->SetInputData(
+      table({{"x", {from, 0.5 * (from + to), to}}, {"low", {low, low, low}}, {label, {high, high, high}}}));
   area->SetInputArray(0, "x");
   area->SetInputArray(1, "low");
   area->SetInputArray(2, label);

@@ -76,11 +76,13 @@ DataFile read_data_file(const std::string& path) {
   std::vector<std::string_view> fields;
   for (int number = 1; std::getline(in, line); ++number) {
     if (!line.empty() && line.back() == '\r') line.pop_back();
-    if (!is_plain_utf8(line)) throw BadInput(path, number, "holds bytes that are no plain UTF-8", "write it as plain text");
+    if (!is_plain_utf8(line))
+      throw BadInput(path, number, "holds bytes that are no plain UTF-8", "write it as plain text");
     if (file.columns.empty() && line.rfind('#', 0) == 0) {
       const auto equals = line.find('=');
       const auto from = std::min(line.find_first_not_of("# "), line.size());
-      if (equals != std::string::npos && equals > from) file.keys.emplace_back(line.substr(from, equals - from), line.substr(equals + 1));
+      if (equals != std::string::npos && equals > from)
+        file.keys.emplace_back(line.substr(from, equals - from), line.substr(equals + 1));
       continue;
     }
     split_fields(line, fields);

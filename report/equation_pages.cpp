@@ -78,7 +78,8 @@ Plot power_plot(const std::vector<PowerPoint>& points, const std::vector<DrawnEq
       }
       plot.series.push_back(series);
       for (std::size_t e = 0; e < equations.size(); ++e) {
-        Series line{fmt::format("{}, {}", name, equations[e].name), e == 0 ? Look::line : Look::dashed, colour, {}, {}, family};
+        Series line{
+            fmt::format("{}, {}", name, equations[e].name), e == 0 ? Look::line : Look::dashed, colour, {}, {}, family};
         constexpr int kSteps = 40;
         for (int i = 0; i <= kSteps; ++i) {
           const double x = low + (high - low) * i / kSteps;
@@ -110,7 +111,8 @@ Plot parity_plot(const std::vector<std::pair<std::string, std::vector<std::array
   constexpr int kGrey = 6;
   plot.series.push_back({"equal", Look::line, kGrey, {{0, 0}, {most, most}}, {}, {}});
   for (const double side : {1 + limit, 1 - limit})
-    plot.series.push_back({fmt::format("± {:.1f} %", 100 * limit), Look::dashed, kGrey, {{0, 0}, {most, most * side}}, {}, {}});
+    plot.series.push_back(
+        {fmt::format("± {:.1f} %", 100 * limit), Look::dashed, kGrey, {{0, 0}, {most, most * side}}, {}, {}});
   return plot;
 }
 
@@ -132,10 +134,11 @@ Table coefficient_table(const json& fit) {
   for (const char* kind : {"coefficients", "combinations"})
     for (const auto& [name, c] : fit.at(kind).items()) {
       const bool fixed = c.value("fixed", false);
-      table.rows.push_back({name, words(c.at("value")), fixed ? "fixed" : words(c.at("low95")), fixed ? "" : words(c.at("high95")),
-                            c.contains("booklet") ? words(c["booklet"]) : ""});
+      table.rows.push_back({name, words(c.at("value")), fixed ? "fixed" : words(c.at("low95")),
+                            fixed ? "" : words(c.at("high95")), c.contains("booklet") ? words(c["booklet"]) : ""});
     }
-  for (const json& name : fit.at("undetermined")) table.rows.push_back({name.get<std::string>(), "not determined", "", "", ""});
+  for (const json& name : fit.at("undetermined"))
+    table.rows.push_back({name.get<std::string>(), "not determined", "", "", ""});
   return table;
 }
 
@@ -149,12 +152,14 @@ Table statistics_table(const json& fit) {
                 {"mean relative error", percent(s.at("mean_relative_error"))},
                 {"largest relative error", percent(s.at("max_relative_error"))},
                 {"largest relative error, leave-one-out", percent(s.at("leave_one_out").at("maximum"))},
-                {"largest relative error of the booklet's equation on these rows", percent(fit.at("booklet").at("against_rows").at("maximum"))},
+                {"largest relative error of the booklet's equation on these rows",
+                 percent(fit.at("booklet").at("against_rows").at("maximum"))},
                 {"stated in the booklet for its measurements", percent(fit.at("booklet").at("max_relative_error"))},
                 {"rank", fmt::format("{} of {}", fit.at("rank").get<int>(), fit.at("columns").get<int>())},
                 // JSON has no infinity
                 {"condition number", fit.at("condition").is_null() ? "infinite" : words(fit["condition"])}};
-  if (fit.contains("check")) table.rows.push_back({"largest relative error of the rows held out", percent(fit["check"].at("maximum"))});
+  if (fit.contains("check"))
+    table.rows.push_back({"largest relative error of the rows held out", percent(fit["check"].at("maximum"))});
   return table;
 }
 
@@ -194,8 +199,10 @@ std::vector<Plot> residual_plots(const json& fit, const std::string& name) {
     Plot plot;
     plot.file = file_name(name, "residuals_" + quantity);
     plot.title = "Deviation of the fitted equation over " + quantity;
-    plot.caption = fmt::format("Fitted over observed power, less 1. Shaded: ± {:.1f} %, the largest relative error stated in the booklet for the equation.",
-                               100 * ThesisEquation::max_relative_error);
+    plot.caption = fmt::format(
+        "Fitted over observed power, less 1. Shaded: ± {:.1f} %, the largest relative error stated in the booklet for "
+        "the equation.",
+        100 * ThesisEquation::max_relative_error);
     plot.x_name = quantity == "speed" ? "speed / (1/s)" : quantity;
     plot.y_name = "fitted/observed − 1 in %";
     const double limit = 100 * ThesisEquation::max_relative_error;
@@ -206,7 +213,8 @@ std::vector<Plot> residual_plots(const json& fit, const std::string& name) {
       const double x = quantity == "speed" ? r.at("speed").get<double>() : r.at("groups").at(quantity).get<double>();
       const double observed = r.at("observed");
       fitted.xy.push_back({x, 100 * (r.at("fitted").get<double>() / observed - 1)});
-      if (r.at("leave_one_out").is_number()) left_out.xy.push_back({x, 100 * (r["leave_one_out"].get<double>() / observed - 1)});
+      if (r.at("leave_one_out").is_number())
+        left_out.xy.push_back({x, 100 * (r["leave_one_out"].get<double>() / observed - 1)});
     }
     plot.series = {left_out, fitted};
     plots.push_back(plot);
@@ -240,7 +248,8 @@ std::vector<Plot> booklet_plots(const std::vector<PowerPoint>& points) {
   const auto speeds = range_of(levels(points, &PowerPoint::speed), Booklet::low_speed, Booklet::high_speed);
   const auto fills = range_of(levels(points, &PowerPoint::fill), Booklet::low_fill, Booklet::high_fill);
   const std::string caption = fmt::format(
-      "Points: simulated runs with 95 % intervals. Lines: the published equation, which is up to {:.1f} % off the measurements it was fitted to.",
+      "Points: simulated runs with 95 % intervals. Lines: the published equation, which is up to {:.1f} % off the "
+      "measurements it was fitted to.",
       100 * Booklet::max_relative_error);
   Plot over_speed = power_plot(points, equations, &PowerPoint::speed, &PowerPoint::fill, speeds[0], speeds[1]);
   over_speed.file = "power_over_speed";
@@ -256,8 +265,10 @@ std::vector<Plot> booklet_plots(const std::vector<PowerPoint>& points) {
   parity.file = "parity";
   parity.title = "Simulated power against the published equation";
   parity.caption = fmt::format(
-      "Dashed: ± {:.1f} %, the booklet's limit for simulation against measurement (Thesis 2). The equation is no measurement: "
-      "agreement with it alone proves nothing.", 100 * kThesisModelLimit);
+      "Dashed: ± {:.1f} %, the booklet's limit for simulation against measurement (Thesis 2). The equation is no "
+      "measurement: "
+      "agreement with it alone proves nothing.",
+      100 * kThesisModelLimit);
   return {over_speed, over_fill, parity};
 }
 
@@ -276,10 +287,13 @@ void add_fit(const json& fit, const std::string& path, const std::string& name, 
     section.blocks.push_back(statistics_table(fit));
 
     const std::vector<PowerPoint> points = fitted_points(fit);
-    std::vector<DrawnEquation> equations = {{"fitted", path, read_equation(path)}, {"published", "the booklet's equation", thesis_equation()}};
+    std::vector<DrawnEquation> equations = {{"fitted", path, read_equation(path)},
+                                            {"published", "the booklet's equation", thesis_equation()}};
     const auto speeds = levels(points, &PowerPoint::speed), fills = levels(points, &PowerPoint::fill);
-    const std::string caption = "Points: rows of the table with 95 % intervals. Solid: the fitted equation; dashed: the published one.";
-    Plot over_speed = power_plot(points, equations, &PowerPoint::speed, &PowerPoint::fill, speeds.front(), speeds.back());
+    const std::string caption =
+        "Points: rows of the table with 95 % intervals. Solid: the fitted equation; dashed: the published one.";
+    Plot over_speed =
+        power_plot(points, equations, &PowerPoint::speed, &PowerPoint::fill, speeds.front(), speeds.back());
     over_speed.file = name + "_power_over_speed";
     over_speed.title = "Mixing power over speed";
     over_speed.caption = caption;
@@ -295,11 +309,14 @@ void add_fit(const json& fit, const std::string& path, const std::string& name, 
       const double power = r.at("power");
       fitted.push_back({power, power * r.at("fitted").get<double>() / r.at("observed").get<double>()});
     }
-    for (const json& r : fit.value("check_rows", json::array())) held_out.push_back({r.at("power"), r.at("predicted_power")});
-    Plot parity = parity_plot({{"rows fitted", fitted}, {"rows held out", held_out}}, kThesisModelLimit, "observed / W", "fitted equation / W");
+    for (const json& r : fit.value("check_rows", json::array()))
+      held_out.push_back({r.at("power"), r.at("predicted_power")});
+    Plot parity = parity_plot({{"rows fitted", fitted}, {"rows held out", held_out}}, kThesisModelLimit, "observed / W",
+                              "fitted equation / W");
     parity.file = name + "_parity";
     parity.title = "Fitted against observed power";
-    parity.caption = fmt::format("Dashed: ± {:.1f} %, the booklet's limit for predicted powers (Thesis 2).", 100 * kThesisModelLimit);
+    parity.caption = fmt::format("Dashed: ± {:.1f} %, the booklet's limit for predicted powers (Thesis 2).",
+                                 100 * kThesisModelLimit);
     section.blocks.push_back(parity);
     for (Plot& plot : residual_plots(fit, name)) section.blocks.push_back(std::move(plot));
     page.sections.push_back(std::move(section));

@@ -15,10 +15,10 @@ namespace vielto {
 // One mixing power with what an equation needs to be drawn through it.
 struct PowerPoint {
   std::string label, material;
-  double speed = 0, fill = 0;             // 1/s, 1
-  double power = 0, u95 = 0;              // W, half width of the 95 % interval
-  double n_pc = 0, n_c = 0, fr_m = 0;     // of the point
-  Groups groups;                          // as far as they are known
+  double speed = 0, fill = 0;          // 1/s, 1
+  double power = 0, u95 = 0;           // W, half width of the 95 % interval
+  double n_pc = 0, n_c = 0, fr_m = 0;  // of the point
+  Groups groups;                       // as far as they are known
 };
 
 // From the numbers of post/power.json. Errors: BadInput naming `path`.

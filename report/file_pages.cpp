@@ -36,10 +36,12 @@ std::string unit_of(const std::string& column) {
 
 Table text_table(const DataFile& file, std::size_t rows) {
   Table table;
-  table.caption = file.rows > rows ? fmt::format("The first {} of {} rows", rows, file.rows) : fmt::format("{} rows", file.rows);
+  table.caption =
+      file.rows > rows ? fmt::format("The first {} of {} rows", rows, file.rows) : fmt::format("{} rows", file.rows);
   std::vector<std::size_t> kept;  // a column that is empty throughout says nothing
   for (std::size_t c = 0; c < file.columns.size(); ++c)
-    if (std::any_of(file.first_rows.begin(), file.first_rows.end(), [c](const auto& row) { return !row[c].empty(); })) kept.push_back(c);
+    if (std::any_of(file.first_rows.begin(), file.first_rows.end(), [c](const auto& row) { return !row[c].empty(); }))
+      kept.push_back(c);
   for (const std::size_t c : kept) table.columns.push_back(file.columns[c]);
   for (std::size_t r = 0; r < std::min(rows, file.first_rows.size()); ++r) {
     table.rows.emplace_back();
@@ -55,7 +57,8 @@ std::vector<Plot> column_plots(const DataFile& file, const std::string& name) {
     if (!file.values[c].empty()) numeric.push_back(c);
   if (numeric.size() < 2 || file.values[numeric[0]].size() < 3) return {};
   std::size_t x = numeric[0];
-  if (const int time = file.find("time_s"); time >= 0 && !file.values[static_cast<std::size_t>(time)].empty()) x = static_cast<std::size_t>(time);
+  if (const int time = file.find("time_s"); time >= 0 && !file.values[static_cast<std::size_t>(time)].empty())
+    x = static_cast<std::size_t>(time);
   const bool ordered = std::is_sorted(file.values[x].begin(), file.values[x].end());
   std::map<std::string, Plot> by_unit;
   for (const std::size_t c : numeric) {
@@ -63,7 +66,12 @@ std::vector<Plot> column_plots(const DataFile& file, const std::string& name) {
     const std::string unit = unit_of(file.columns[c]);
     Plot& plot = by_unit[unit];
     if (plot.series.size() == kMostSeries) continue;
-    Series series{file.columns[c], ordered ? Series::Look::line : Series::Look::points, static_cast<int>(plot.series.size()), {}, {}, {}};
+    Series series{file.columns[c],
+                  ordered ? Series::Look::line : Series::Look::points,
+                  static_cast<int>(plot.series.size()),
+                  {},
+                  {},
+                  {}};
     for (std::size_t i = 0; i < file.values[c].size(); ++i) series.xy.push_back({file.values[x][i], file.values[c][i]});
     plot.series.push_back(series);
   }
@@ -72,7 +80,8 @@ std::vector<Plot> column_plots(const DataFile& file, const std::string& name) {
     if (plots.size() == kMostPlots) break;
     plot.file = file_name(name + "_" + (unit.empty() ? "numbers" : unit));
     plot.title = fmt::format("{}{}", name, unit.empty() ? "" : ", columns in " + unit);
-    plot.caption = file.rows_per_block > 1 ? fmt::format("Means over blocks of {} rows.", file.rows_per_block) : "Every row.";
+    plot.caption =
+        file.rows_per_block > 1 ? fmt::format("Means over blocks of {} rows.", file.rows_per_block) : "Every row.";
     plot.x_name = file.columns[x];
     plot.y_name = unit.empty() ? "value" : unit;
     plot.zoom = true;
@@ -83,10 +92,15 @@ std::vector<Plot> column_plots(const DataFile& file, const std::string& name) {
 
 void flatten(const json& value, const std::string& key, Table& table) {
   if (table.rows.size() == kMostJsonRows) return;
-  const auto plain = [](const json& v) { return v.is_string() ? v.get<std::string>() : v.is_number_float() ? fmt::format("{:.6g}", v.get<double>()) : v.dump(); };
+  const auto plain = [](const json& v) {
+    return v.is_string()         ? v.get<std::string>()
+           : v.is_number_float() ? fmt::format("{:.6g}", v.get<double>())
+                                 : v.dump();
+  };
   if (value.is_object()) {
     for (const auto& [name, inner] : value.items()) flatten(inner, key.empty() ? name : key + "." + name, table);
-  } else if (value.is_array() && std::any_of(value.begin(), value.end(), [](const json& v) { return v.is_structured(); })) {
+  } else if (value.is_array() &&
+             std::any_of(value.begin(), value.end(), [](const json& v) { return v.is_structured(); })) {
     for (std::size_t i = 0; i < value.size(); ++i) flatten(value[i], fmt::format("{}[{}]", key, i), table);
   } else if (value.is_array()) {
     std::string text;

@@ -208,9 +208,10 @@ bool draw_grains(const std::string& run, const TorqueRecord& record, const std::
 
 bool draw_rig(const std::string& run, const TorqueRecord* record, const std::string& path) {
   const auto dump = last_dump(fs::path(run) / "vtk", ".vtk");
-  const double turns = record && dump ? std::max(0.0, (static_cast<double>(dump->step) - record->start_step) /
-                                                          record->header.steps_per_turn)
-                                      : 0;
+  const double turns =
+      record && dump
+          ? std::max(0.0, (static_cast<double>(dump->step) - record->start_step) / record->header.steps_per_turn)
+          : 0;
   vtkNew<vtkRenderer> renderer;
   renderer->SetBackground(1, 1, 1);
   if (!add_parts(renderer, run, record ? std::optional(360 * turns) : std::nullopt)) return false;

@@ -29,11 +29,20 @@ std::string bytes_of(const std::string& path, const std::string& mend) {
 std::string escaped(const std::string& text) {
   std::string out;
   for (const char c : text) switch (c) {
-      case '&': out += "&amp;"; break;
-      case '<': out += "&lt;"; break;
-      case '>': out += "&gt;"; break;
-      case '"': out += "&quot;"; break;
-      default: out += c;
+      case '&':
+        out += "&amp;";
+        break;
+      case '<':
+        out += "&lt;";
+        break;
+      case '>':
+        out += "&gt;";
+        break;
+      case '"':
+        out += "&quot;";
+        break;
+      default:
+        out += c;
     }
   return out;
 }
@@ -46,7 +55,8 @@ std::string in_script(std::string text) {
 
 std::string base64(const std::string& bytes) {
   std::vector<unsigned char> out(2 * bytes.size() + 4);
-  const auto length = vtkBase64Utilities::Encode(reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size(), out.data());
+  const auto length =
+      vtkBase64Utilities::Encode(reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size(), out.data());
   return {out.begin(), out.begin() + static_cast<std::ptrdiff_t>(length)};
 }
 
@@ -63,11 +73,13 @@ bool is_of_numbers(const Table& table, std::size_t column) {
 
 std::string html(const Table& table) {
   std::vector<const char*> looks;
-  for (std::size_t c = 0; c < table.columns.size(); ++c) looks.push_back(is_of_numbers(table, c) ? " class=\"number\"" : "");
+  for (std::size_t c = 0; c < table.columns.size(); ++c)
+    looks.push_back(is_of_numbers(table, c) ? " class=\"number\"" : "");
   std::string text = "<div class=\"wide\"><table>\n";
   if (!table.caption.empty()) text += fmt::format("<caption>{}</caption>\n", escaped(table.caption));
   text += "<thead><tr>";
-  for (std::size_t c = 0; c < table.columns.size(); ++c) text += fmt::format("<th scope=\"col\"{}>{}</th>", looks[c], escaped(table.columns[c]));
+  for (std::size_t c = 0; c < table.columns.size(); ++c)
+    text += fmt::format("<th scope=\"col\"{}>{}</th>", looks[c], escaped(table.columns[c]));
   text += "</tr></thead>\n<tbody>\n";
   for (const auto& row : table.rows) {
     text += "<tr>";
@@ -78,8 +90,9 @@ std::string html(const Table& table) {
 }
 
 std::string html(const Picture& picture) {
-  return fmt::format("<figure><img alt=\"{0}\" src=\"data:image/png;base64,{1}\"><figcaption>{0}</figcaption></figure>\n",
-                     escaped(picture.caption), base64(bytes_of(picture.png, "draw the picture again")));
+  return fmt::format(
+      "<figure><img alt=\"{0}\" src=\"data:image/png;base64,{1}\"><figcaption>{0}</figcaption></figure>\n",
+      escaped(picture.caption), base64(bytes_of(picture.png, "draw the picture again")));
 }
 
 std::string html(const Plot& plot) {
@@ -107,7 +120,8 @@ std::string web_file(const std::string& name) {
 std::string plots_json(const Page& page) {
   nlohmann::json list = nlohmann::json::array();
   for (const Plot* plot : page.plots())
-    list.push_back({{"file", plot->file}, {"title", plot->title}, {"caption", plot->caption}, {"option", plot_option(*plot)}});
+    list.push_back(
+        {{"file", plot->file}, {"title", plot->title}, {"caption", plot->caption}, {"option", plot_option(*plot)}});
   return list.dump();
 }
 
@@ -115,33 +129,41 @@ std::string page_html(const Page& page, bool with_plots) {
   const auto web = [](const char* name) { return bytes_of(web_file(name), "install vielto again"); };
   std::string text = fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<meta name=\"color-scheme\" content=\"light dark\">\n"
+      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<meta name=\"color-scheme\" "
+      "content=\"light dark\">\n"
       // No icon is asked for, nothing is loaded: the browser itself enforces it.
-      "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src data:; style-src 'unsafe-inline'; script-src 'unsafe-inline'\">\n"
+      "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src data:; style-src "
+      "'unsafe-inline'; script-src 'unsafe-inline'\">\n"
       "<link rel=\"icon\" href=\"data:,\">\n<title>{0}</title>\n<style>\n{2}</style>\n</head>\n<body>\n<main>\n"
       "<header><h1>{0}</h1><p>{1}</p></header>\n",
       escaped(page.title), escaped(page.subtitle), web("page.css"));
   text += "<section id=\"summary\">\n<h2>Summary</h2>\n<div class=\"figures\">\n";
   for (const KeyFigure& f : page.figures)
-    text += fmt::format("<div class=\"key{}\"><span>{}</span><strong>{}</strong><span>{}</span></div>\n", f.bad ? " bad" : "",
-                        escaped(f.label), escaped(f.value), escaped(f.note));
+    text += fmt::format("<div class=\"key{}\"><span>{}</span><strong>{}</strong><span>{}</span></div>\n",
+                        f.bad ? " bad" : "", escaped(f.label), escaped(f.value), escaped(f.note));
   text += "</div>\n";
   for (const Paragraph& p : page.summary) text += html(p);
-  if (!with_plots) text += html(Paragraph{"The plots were left out of this report (--no-plots); their data are the CSV files beside it.", Paragraph::Tone::plain});
+  if (!with_plots)
+    text +=
+        html(Paragraph{"The plots were left out of this report (--no-plots); their data are the CSV files beside it.",
+                       Paragraph::Tone::plain});
   text += "</section>\n";
   for (const Section& section : page.sections) {
     const std::string title = fmt::format("<h2>{}</h2>", escaped(section.title));
     text += section.folded ? "<section><details><summary>" + title + "</summary>\n" : "<section>" + title + "\n";
     for (const auto& block : section.blocks)
-      std::visit([&](const auto& b) {
-        if (with_plots || !std::is_same_v<std::decay_t<decltype(b)>, Plot>) text += html(b);
-      }, block);
+      std::visit(
+          [&](const auto& b) {
+            if (with_plots || !std::is_same_v<std::decay_t<decltype(b)>, Plot>) text += html(b);
+          },
+          block);
     text += section.folded ? "</details></section>\n" : "</section>\n";
   }
   text += "</main>\n";
   if (with_plots && !page.plots().empty())
-    text += fmt::format("<script type=\"application/json\" id=\"plots\">{}</script>\n<script>\n{}\n</script>\n<script>\n{}</script>\n",
-                        in_script(plots_json(page)), web("echarts.min.js"), web("page.js"));
+    text += fmt::format(
+        "<script type=\"application/json\" id=\"plots\">{}</script>\n<script>\n{}\n</script>\n<script>\n{}</script>\n",
+        in_script(plots_json(page)), web("echarts.min.js"), web("page.js"));
   return text + "</body>\n</html>\n";
 }
 

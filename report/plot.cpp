@@ -84,15 +84,19 @@ std::string field(std::string text) {
 json plot_option(const Plot& plot) {
   const bool points = std::any_of(plot.series.begin(), plot.series.end(),
                                   [](const Series& s) { return s.look == Series::Look::points; });
-  json option = {{"aria", {{"enabled", true}}},
-                 {"tooltip", {{"trigger", points ? "item" : "axis"}, {"confine", true}}},
-                 {"legend", {{"type", "scroll"}, {"itemGap", 16}, {"top", 0}, {"left", 0}, {"right", 0}}},
-                 {"grid", {{"left", 12}, {"right", 20}, {"top", 66}, {"bottom", plot.zoom ? 78 : 44}, {"containLabel", true}}},
-                 // The name of the y axis stands level above it: readable on a phone, never in the way of the numbers.
-                 {"title", json::array({{{"text", plot.y_name}, {"left", 0}, {"top", 36}, {"textStyle", {{"fontSize", 12}, {"fontWeight", "normal"}}}}})},
-                 {"xAxis", axis(plot.from_zero)},
-                 {"yAxis", axis(plot.from_zero)},
-                 {"series", json::array()}};
+  json option = {
+      {"aria", {{"enabled", true}}},
+      {"tooltip", {{"trigger", points ? "item" : "axis"}, {"confine", true}}},
+      {"legend", {{"type", "scroll"}, {"itemGap", 16}, {"top", 0}, {"left", 0}, {"right", 0}}},
+      {"grid", {{"left", 12}, {"right", 20}, {"top", 66}, {"bottom", plot.zoom ? 78 : 44}, {"containLabel", true}}},
+      // The name of the y axis stands level above it: readable on a phone, never in the way of the numbers.
+      {"title", json::array({{{"text", plot.y_name},
+                              {"left", 0},
+                              {"top", 36},
+                              {"textStyle", {{"fontSize", 12}, {"fontWeight", "normal"}}}}})},
+      {"xAxis", axis(plot.from_zero)},
+      {"yAxis", axis(plot.from_zero)},
+      {"series", json::array()}};
   option["xAxis"]["name"] = plot.x_name;
   option["xAxis"]["nameLocation"] = "middle";
   option["xAxis"]["nameGap"] = 30;

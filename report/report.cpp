@@ -90,11 +90,13 @@ void need_plot_programs(const ReportRequest& request) {
     throw BadInput(library, 0, "is not there: the plotting library was not fetched when vielto was built",
                    "fetch it with `scripts/get-echarts`, or leave the plots out with --no-plots");
   if (request.svg && std::system("node --version >/dev/null 2>&1") != 0)
-    throw BadInput("node", 0, "is not there: it draws the SVG files", "install the package nodejs, or leave them out with --no-svg");
+    throw BadInput("node", 0, "is not there: it draws the SVG files",
+                   "install the package nodejs, or leave them out with --no-svg");
 }
 
 // The rig of a run: drawn now, or as `vielto post --pictures` drew it; empty with a line if there is neither.
-std::string rig_picture(const fs::path& run, const fs::path& out, const std::string& name, std::vector<std::string>& lines) {
+std::string rig_picture(const fs::path& run, const fs::path& out, const std::string& name,
+                        std::vector<std::string>& lines) {
   const fs::path made = out / ((name.empty() ? "" : name + "_") + std::string("rig.png"));
   const char* display = std::getenv("DISPLAY");
   const fs::path drawn = run / "post/grains.png";
@@ -104,7 +106,8 @@ std::string rig_picture(const fs::path& run, const fs::path& out, const std::str
     if (draw_rig(run.string(), record ? &*record : nullptr, made.string())) return made.string();
     if (!fs::exists(drawn)) lines.push_back(fmt::format("no picture of {}: it holds no mesh/*.stl", run.string()));
   } else if (!fs::exists(drawn)) {
-    lines.push_back(fmt::format("no picture of {}: there is no display to draw with; run the command under 'xvfb-run -a'", run.string()));
+    lines.push_back(fmt::format(
+        "no picture of {}: there is no display to draw with; run the command under 'xvfb-run -a'", run.string()));
   }
   return fs::exists(drawn) ? drawn.string() : "";
 }
@@ -112,14 +115,17 @@ std::string rig_picture(const fs::path& run, const fs::path& out, const std::str
 std::string in_words(const json& value) { return value.is_string() ? value.get<std::string>() : value.dump(); }
 
 // Versions, command, seed and hashes of every run, and the files that this page was made from; the parameters apart.
-std::array<Section, 2> provenance(const std::vector<std::pair<std::string, fs::path>>& runs, const std::set<std::string>& read, const fs::path& folder) {
+std::array<Section, 2> provenance(const std::vector<std::pair<std::string, fs::path>>& runs,
+                                  const std::set<std::string>& read, const fs::path& folder) {
   Section section{"Provenance", {}}, all_parameters{"Parameters", {}, true};
-  section.blocks.push_back(Paragraph{fmt::format("Report by vielto {}, plots by Apache ECharts (Apache-2.0).", VIELTO_VERSION)});
+  section.blocks.push_back(
+      Paragraph{fmt::format("Report by vielto {}, plots by Apache ECharts (Apache-2.0).", VIELTO_VERSION)});
   for (const auto& [name, run] : runs) {
     const fs::path path = run / "run.json";
     const std::string of = name.empty() ? "" : " of " + name;
     if (!fs::exists(path)) {
-      section.blocks.push_back(Paragraph{fmt::format("There is no run.json{}: where it comes from is not recorded.", of), Paragraph::Tone::warning});
+      section.blocks.push_back(Paragraph{
+          fmt::format("There is no run.json{}: where it comes from is not recorded.", of), Paragraph::Tone::warning});
       continue;
     }
     json j;
@@ -128,7 +134,8 @@ std::array<Section, 2> provenance(const std::vector<std::pair<std::string, fs::p
     } catch (const json::exception& error) {
       throw BadInput(path.string(), 0, fmt::format("is no JSON ({})", error.what()), "run the case again");
     }
-    Table facts{"Run" + of, {"what", "value"}, {}}, hashes{"SHA-256 of the inputs" + of, {"file", "hash"}, {}}, parameters{"Parameters" + of, {"name", "value"}, {}};
+    Table facts{"Run" + of, {"what", "value"}, {}}, hashes{"SHA-256 of the inputs" + of, {"file", "hash"}, {}},
+        parameters{"Parameters" + of, {"name", "value"}, {}};
     for (const char* key : {"status", "command", "ranks"})
       if (j.contains(key)) facts.rows.push_back({key, in_words(j[key])});
     const auto entries = [&j](const char* key) { return j.contains(key) ? j[key] : json::object(); };
@@ -144,16 +151,19 @@ std::array<Section, 2> provenance(const std::vector<std::pair<std::string, fs::p
     all_parameters.blocks.push_back(parameters);
   }
   Table files{"Files this report was made from", {"file", "SHA-256"}, {}};
-  for (const std::string& path : read) files.rows.push_back({fs::path(path).lexically_relative(folder).string(), sha256(path)});
+  for (const std::string& path : read)
+    files.rows.push_back({fs::path(path).lexically_relative(folder).string(), sha256(path)});
   section.blocks.push_back(files);
   return {section, all_parameters};
 }
 
 Table run_table(const std::vector<std::pair<PowerPoint, json>>& runs) {
-  Table table{"Runs", {"run", "material", "speed, 1/s", "fill", "power, W", "95 %, W", "from the equation, %", "limits"}, {}};
+  Table table{
+      "Runs", {"run", "material", "speed, 1/s", "fill", "power, W", "95 %, W", "from the equation, %", "limits"}, {}};
   for (const auto& [p, j] : runs)
-    table.rows.push_back({p.label, p.material, fmt::format("{:g}", p.speed), fmt::format("{:g}", p.fill), fmt::format("{:.2f}", p.power),
-                          fmt::format("{:.2f}", j.at("power_u95_W").get<double>()), fmt::format("{:.1f}", 100 * j.at("relative_gap").get<double>()),
+    table.rows.push_back({p.label, p.material, fmt::format("{:g}", p.speed), fmt::format("{:g}", p.fill),
+                          fmt::format("{:.2f}", p.power), fmt::format("{:.2f}", j.at("power_u95_W").get<double>()),
+                          fmt::format("{:.1f}", 100 * j.at("relative_gap").get<double>()),
                           j.at("quality").at("ok").get<bool>() ? "met" : "violated"});
   return table;
 }
@@ -179,10 +189,12 @@ void Work::add_runs() {
     runs.emplace_back("", folder);
   } else {
     for (const fs::path& inner : sorted(folder))
-      if (fs::is_directory(inner) && inner.extension() != ".partial" && is_mixer_run(inner.string())) runs.emplace_back(inner.filename().string(), inner);
+      if (fs::is_directory(inner) && inner.extension() != ".partial" && is_mixer_run(inner.string()))
+        runs.emplace_back(inner.filename().string(), inner);
   }
   // First those with a power.
-  const auto rest = std::stable_partition(runs.begin(), runs.end(), [](const auto& run) { return fs::exists(run.second / "post/power.json"); });
+  const auto rest = std::stable_partition(runs.begin(), runs.end(),
+                                          [](const auto& run) { return fs::exists(run.second / "post/power.json"); });
   const auto evaluated = rest - runs.begin();
   Page run_pages;
   std::vector<std::pair<PowerPoint, json>> table;
@@ -209,17 +221,24 @@ void Work::add_runs() {
   page.figures = run_pages.figures;
   page.summary = run_pages.summary;
   if (table.size() > 1) {
-    const auto violated = std::count_if(table.begin(), table.end(), [](const auto& t) { return !t.second.at("quality").at("ok").template get<bool>(); });
+    const auto violated = std::count_if(table.begin(), table.end(), [](const auto& t) {
+      return !t.second.at("quality").at("ok").template get<bool>();
+    });
     double most = 0;
     bool provisional = false;
     for (const auto& [point, j] : table) {
       most = std::max(most, std::abs(j.at("relative_gap").get<double>()));
       provisional = provisional || j.at("provisional").get<bool>();
     }
-    page.figures.insert(page.figures.begin(), {{"Runs evaluated", fmt::format("{}", table.size()), fmt::format("of {} run folders", runs.size())},
-                                               {"Largest distance from the published equation", fmt::format("{:.1f} %", 100 * most), "of all runs"},
-                                               {"Runs that violate a limit", fmt::format("{}", violated), "named below", violated > 0}});
-    if (provisional) page.summary.push_back({"Provisional: a material card is not calibrated yet. Do not decide anything by these numbers.", Paragraph::Tone::warning});
+    page.figures.insert(
+        page.figures.begin(),
+        {{"Runs evaluated", fmt::format("{}", table.size()), fmt::format("of {} run folders", runs.size())},
+         {"Largest distance from the published equation", fmt::format("{:.1f} %", 100 * most), "of all runs"},
+         {"Runs that violate a limit", fmt::format("{}", violated), "named below", violated > 0}});
+    if (provisional)
+      page.summary.push_back(
+          {"Provisional: a material card is not calibrated yet. Do not decide anything by these numbers.",
+           Paragraph::Tone::warning});
   }
   if (!points.empty()) {
     Section section{"Power over speed and fill", {}};
@@ -235,11 +254,14 @@ void Work::add_files() {
   std::vector<fs::path> csv, other;
   std::vector<std::pair<fs::path, json>> fits;
   std::vector<Picture> pictures;
-  const std::set<std::string> of_a_run = {"torque.csv", "run.json"}, of_post = {"power.json", "phase.csv", "grains.png", "torque.png"};
+  const std::set<std::string> of_a_run = {"torque.csv", "run.json"},
+                              of_post = {"power.json", "phase.csv", "grains.png", "torque.png"};
   for (const fs::path& place : {folder, folder / "post"}) {
     for (const fs::path& file : sorted(place)) {
       const std::string name = file.filename().string(), type = file.extension().string();
-      if (!fs::is_regular_file(file) || (place == folder && of_a_run.count(name) > 0) || (is_run && of_post.count(name) > 0)) continue;
+      if (!fs::is_regular_file(file) || (place == folder && of_a_run.count(name) > 0) ||
+          (is_run && of_post.count(name) > 0))
+        continue;
       if ((type == ".csv" || type == ".json" || type == ".png") && is_shown(file)) continue;
       if (type == ".csv") csv.push_back(file);
       if (type == ".png") pictures.push_back({name, file.string()});
@@ -256,7 +278,8 @@ void Work::add_files() {
   for (const fs::path& file : csv) add_csv(file.string(), relative(file), fits.empty(), page);
   for (const fs::path& file : other) add_json(file.string(), relative(file), page);
   if (runs.empty() && fs::exists(folder / "mesh"))
-    if (const std::string rig = rig_picture(folder, out.partial(), "", lines); !rig.empty()) pictures.push_back({"The rig, rendered from its meshes and grains", rig});
+    if (const std::string rig = rig_picture(folder, out.partial(), "", lines); !rig.empty())
+      pictures.push_back({"The rig, rendered from its meshes and grains", rig});
   if (!pictures.empty()) {
     Section section{"Pictures", {}};
     for (const Picture& picture : pictures) section.blocks.push_back(picture);
@@ -272,17 +295,24 @@ void Work::add_files() {
 
 std::vector<std::string> write_report(const ReportRequest& request) {
   const fs::path folder = fs::path(request.folder).lexically_normal();
-  if (!fs::is_directory(folder)) throw BadInput(request.folder, 0, "is no folder", "name a run folder or another folder of results");
+  if (!fs::is_directory(folder))
+    throw BadInput(request.folder, 0, "is no folder", "name a run folder or another folder of results");
   need_plot_programs(request);
-  Work work{request, folder, NewFolder(request.out.empty() ? folder / "report" : fs::path(request.out)), {}, {}, {}, {}, {}};
+  Work work{request, folder, NewFolder(request.out.empty() ? folder / "report" : fs::path(request.out)), {}, {}, {},
+            {},      {}};
   work.add_runs();
   work.add_files();
   Page& page = work.page;
-  if (page.sections.empty()) throw BadInput(request.folder, 0, "holds nothing to report", "name a run folder, or one with CSV or JSON files of results");
+  if (page.sections.empty())
+    throw BadInput(request.folder, 0, "holds nothing to report",
+                   "name a run folder, or one with CSV or JSON files of results");
   const std::string name = fs::canonical(folder).filename().string();
   page.title = "Report on " + name;
-  page.subtitle = fmt::format("Paddle mixer under the ViElTo contact law. Made by vielto {} from the files named at the end.", VIELTO_VERSION);
-  if (page.summary.empty()) page.summary.push_back({"Tables and plots of what lies in the folder; there is no evaluated mixer run and no fitted equation in it."});
+  page.subtitle = fmt::format(
+      "Paddle mixer under the ViElTo contact law. Made by vielto {} from the files named at the end.", VIELTO_VERSION);
+  if (page.summary.empty())
+    page.summary.push_back(
+        {"Tables and plots of what lies in the folder; there is no evaluated mixer run and no fitted equation in it."});
   for (Section& section : provenance(work.runs, work.read, folder))
     if (!section.blocks.empty()) page.sections.push_back(std::move(section));
 
@@ -295,8 +325,10 @@ std::vector<std::string> write_report(const ReportRequest& request) {
   if (request.plots && request.svg && !names.empty()) {
     const std::string list = (out / "plots.json").string();
     write_whole_file(list, plots_json(page));
-    const std::string command = fmt::format("node {} {} {} {}", quoted(web_file("svg.js")), quoted(web_file("echarts.min.js")), quoted(list), quoted(out.string()));
-    if (std::system(command.c_str()) != 0) throw std::runtime_error("node could not draw the plots as SVG; its message stands above");
+    const std::string command = fmt::format("node {} {} {} {}", quoted(web_file("svg.js")),
+                                            quoted(web_file("echarts.min.js")), quoted(list), quoted(out.string()));
+    if (std::system(command.c_str()) != 0)
+      throw std::runtime_error("node could not draw the plots as SVG; its message stands above");
     fs::remove(list);
   }
   write_whole_file((out / "report.html").string(), page_html(page, request.plots));

@@ -12,8 +12,8 @@
 namespace vielto {
 
 struct RunOfReport {
-  std::string folder, name;  // name: "" if the report is of this run alone
-  std::string picture;       // PNG to show; empty: none
+  std::string folder, name;       // name: "" if the report is of this run alone
+  std::string picture;            // PNG to show; empty: none
   std::vector<std::string> read;  // files that were used
 };
 

@@ -21,13 +21,14 @@ void draw_shear(const ShearRecord& record, const ShearResult& result, const std:
   const std::vector<double> x = scaled(record.displacement, 1e3), blocks = scaled(result.displacement, 1e3);
   const std::vector<double> shear = scaled(record.shear_force, 1e-3 / h.area);
   const std::vector<double> plate = scaled(record.plate_force, 1e-3 / h.area);
-  const double high = 1.25 * std::max(*std::max_element(shear.begin(), shear.end()),
-                                      *std::max_element(plate.begin(), plate.end()));
+  const double high =
+      1.25 * std::max(*std::max_element(shear.begin(), shear.end()), *std::max_element(plate.begin(), plate.end()));
   const double low = std::min(0.0, *std::min_element(shear.begin(), shear.end()));
   const double normal = 1e-3 * h.normal_stress;
-  Chart chart(fmt::format("{}{}, {:.2f} kPa, {} mm/s: steady shear stress {:.2f} kPa, plate force fluctuates by {:.1f} %",
-                          h.material, h.provisional ? " (provisional)" : "", normal, 1e3 * h.shear_velocity,
-                          1e-3 * result.steady.mean, 100 * result.plate_fluctuation));
+  Chart chart(
+      fmt::format("{}{}, {:.2f} kPa, {} mm/s: steady shear stress {:.2f} kPa, plate force fluctuates by {:.1f} %",
+                  h.material, h.provisional ? " (provisional)" : "", normal, 1e3 * h.shear_velocity,
+                  1e-3 * result.steady.mean, 100 * result.plate_fluctuation));
   chart.shade("steady part", 1e3 * result.steady_from, x.back(), low, high);
   chart.line("force on the load plate over the area", x, plate, kGrey, 1);
   chart.line("shear stress", x, shear, kBlue, 1);

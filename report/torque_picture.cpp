@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <fmt/format.h>
+
 #include <algorithm>
 #include <vector>
 
@@ -29,8 +30,8 @@ void draw_torque(const TorqueRecord& record, const MixingPower& power, const std
   const double from = power.turn_first * turn_time, to = from + power.averaged.count * turn_time;
 
   Chart chart(fmt::format("{}{}, fill {}, {} 1/s: {:.2f} N m, mixing power {:.1f} W, standard uncertainty {:.1f} W",
-                          record.header.material, record.header.provisional ? " (provisional)" : "",
-                          record.header.fill, record.header.speed, power.torque.mean, power.power.mean, power.power.u));
+                          record.header.material, record.header.provisional ? " (provisional)" : "", record.header.fill,
+                          record.header.speed, power.torque.mean, power.power.mean, power.power.u));
   chart.shade("averaged turns", from, to, low, high);
   const std::string of = record.header.slice == 0 ? "torque on the grains"
                                                   : fmt::format("torque on the grains, slice times {}/{}",

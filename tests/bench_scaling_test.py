@@ -11,16 +11,24 @@ C0, C, H, L = 40.0, 0.5, 0.2, 25.0
 
 def rows(kind):
     for grains, length in ((1000, 0.14), (4000, 0.14), (20000, 0.14)):
-        d = 0.2 / grains**(1 / 3)
+        d = 0.2 / grains ** (1 / 3)
         ghosts = 2 * grains / length * 1.25 * d
         for ranks in (1, 2):
             t = C0 + C * grains / ranks + H * ghosts + L * (ranks > 1)
-            yield {"kind": kind, "grains": grains, "ghosts": ghosts, "ranks": ranks, "us_per_step": {"median": t, "low": t, "high": t}}
+            yield {
+                "kind": kind,
+                "grains": grains,
+                "ghosts": ghosts,
+                "ranks": ranks,
+                "us_per_step": {"median": t, "low": t, "high": t},
+            }
 
 
 with tempfile.TemporaryDirectory() as name:
     folder = pathlib.Path(name)
-    (folder / "in.json").write_text(json.dumps({"machine": {"cpu": "none"}, "quick": True, "rows": [*rows("mixer"), *rows("packing")]}))
+    (folder / "in.json").write_text(
+        json.dumps({"machine": {"cpu": "none"}, "quick": True, "rows": [*rows("mixer"), *rows("packing")]})
+    )
     subprocess.run([SCALING, "--from", folder / "in.json", "--out", folder], check=True, stdout=subprocess.DEVNULL)
     result = json.loads((folder / "scaling.json").read_text())
     model = result["model"]["mixer"]
@@ -32,7 +40,9 @@ with tempfile.TemporaryDirectory() as name:
     assert abs(one["hours"] / ((40 * 5.5 + 0.5 * one["grains"]) * 1e-6 * 585600 * 6 / 3600) - 1) < 1e-6, one
     # a slab of 2 * 1.25 * 1.8 mm: 128 ranks over 765 mm leave 6 mm
     assert max(r["ranks"] for r in result["full_drum"]) == 128
-    assert all(a["hours"] > b["hours"] for a, b in zip(result["full_drum"], result["full_drum"][1:]) if a["fill"] == b["fill"])
+    assert all(
+        a["hours"] > b["hours"] for a, b in zip(result["full_drum"], result["full_drum"][1:]) if a["fill"] == b["fill"]
+    )
     assert (folder / "scaling.png").exists()
 
     (folder / "in.json").write_text("{")

@@ -141,25 +141,43 @@ vars = {fillFrictionAngle = "phi / 2"}
     assert not (folder / "y.posterior.csv").exists()
 
     # faults of the plan and of the numbers: one line, and no half-written design
-    for change, fault in ((("points = 32", "points = -1"), "points is -1"), (("points = 32", 'points = "many"'), "points is 'many'"),
-                          (("members = 50", "members = 0"), "members is 0"), (("low = ", "lowest = "), "`low` is no number"),
-                          (("u = ", "u = -"), "no standard uncertainty"), (("u_column", "uncertain_column"), "has no text `u_column`"),
-                          (('= "phi"', '= "phi +"'), "an expression of `vars` or `where` does not work"),
-                          (('= "phi"', '= "psi"'), "an expression of `vars` or `where` does not work")):
+    for change, fault in (
+        (("points = 32", "points = -1"), "points is -1"),
+        (("points = 32", 'points = "many"'), "points is 'many'"),
+        (("members = 50", "members = 0"), "members is 0"),
+        (("low = ", "lowest = "), "`low` is no number"),
+        (("u = ", "u = -"), "no standard uncertainty"),
+        (("u_column", "uncertain_column"), "has no text `u_column`"),
+        (('= "phi"', '= "phi +"'), "an expression of `vars` or `where` does not work"),
+        (('= "phi"', '= "psi"'), "an expression of `vars` or `where` does not work"),
+    ):
         assert change[0] in PLAN, change
         (folder / "bad.toml").write_text(PLAN.replace(*change, 1))
         bad = calibrate("design", folder / "bad.toml", "--out", folder / "bad.csv")
-        assert bad.returncode == 2 and fault in bad.stderr and bad.stderr.count("\n") == 1 and "; " in bad.stderr, (change, bad)
+        assert bad.returncode == 2 and fault in bad.stderr and bad.stderr.count("\n") == 1 and "; " in bad.stderr, (
+            change,
+            bad,
+        )
         assert not (folder / "bad.csv").exists()
     (folder / "bad.toml").write_bytes(bytes(range(256)))
     numbers = (folder / "numbers.csv").read_text()
     first = numbers.splitlines(True)[1]
-    for words, fault in ((("design", folder / "bad.toml", "--out", folder / "bad.csv"), "write it as TOML"),
-                         (("design", folder / "plan.toml", "--out", folder / "none" / "x.csv"), "cannot be written"),
-                         (("fit", folder / "plan.toml", folder / "bad.toml", "--out", folder / "y.posterior.csv"), "is no CSV table")):
+    for words, fault in (
+        (("design", folder / "bad.toml", "--out", folder / "bad.csv"), "write it as TOML"),
+        (("design", folder / "plan.toml", "--out", folder / "none" / "x.csv"), "cannot be written"),
+        (("fit", folder / "plan.toml", folder / "bad.toml", "--out", folder / "y.posterior.csv"), "is no CSV table"),
+    ):
         bad = calibrate(*words)
         assert bad.returncode == 2 and fault in bad.stderr and bad.stderr.count("\n") == 1, bad
-    for text, fault in ((numbers + first, "is there twice"), (numbers.replace(first, ",".join(["nan" if c.replace(".", "").isdigit() and "." in c else c for c in first.split(",")])), "a finite number")):
+    for text, fault in (
+        (numbers + first, "is there twice"),
+        (
+            numbers.replace(
+                first, ",".join(["nan" if c.replace(".", "").isdigit() and "." in c else c for c in first.split(",")])
+            ),
+            "a finite number",
+        ),
+    ):
         (folder / "bad.csv").write_text(text)
         bad = calibrate("fit", folder / "plan.toml", folder / "bad.csv", "--out", folder / "y.posterior.csv")
         assert bad.returncode == 2 and fault in bad.stderr and bad.stderr.count("\n") == 1, bad

@@ -51,7 +51,9 @@ assert abs(share({"rig": "drum"}, {"rig": "drum", "fill": "0.25"}) - 0.5) < 1e-9
 with tempfile.TemporaryDirectory(prefix="vielto-campaign-") as name:
     folder = pathlib.Path(name)
     (folder / "runs").mkdir()
-    (folder / "runs/a.log").write_text("run 1 of 1\ndisplacement 1.7 of 8.0 mm, 0:18 left\ndisplacement 2.0 of 8.0 mm, shear force 9 N, 0:15 left\n")
+    (folder / "runs/a.log").write_text(
+        "run 1 of 1\ndisplacement 1.7 of 8.0 mm, 0:18 left\ndisplacement 2.0 of 8.0 mm, shear force 9 N, 0:15 left\n"
+    )
     assert abs(program.share_done(folder, {"run": "a"}) - 0.25) < 1e-9 and program.share_done(folder, {"run": "b"}) == 0
     study = folder / "study.csv"
     study.write_text(STUDY)
@@ -59,7 +61,9 @@ with tempfile.TemporaryDirectory(prefix="vielto-campaign-") as name:
     assert whole.returncode == 0, whole.stdout + whole.stderr + (folder / "whole/snakemake.log").read_text()
     assert "100 % of the work" in whole.stdout, whole.stdout
     rows = (folder / "whole/observations.csv").read_text().splitlines()
-    assert sum(line.startswith("slow,") for line in rows) >= 1 and sum(line.startswith("fast,") for line in rows) >= 1, rows
+    assert (
+        sum(line.startswith("slow,") for line in rows) >= 1 and sum(line.startswith("fast,") for line in rows) >= 1
+    ), rows
 
     out = folder / "killed"
     started = subprocess.Popen(campaign(study, out), stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
@@ -91,7 +95,9 @@ with tempfile.TemporaryDirectory(prefix="vielto-campaign-") as name:
     # a study that has changed is not given the old runs' numbers
     study.write_text(STUDY.replace("fast,mixer,1.5,0.05", "fast,mixer,1.5,0.06"))
     changed = subprocess.run(campaign(study, out), capture_output=True, text=True)
-    assert changed.returncode == 2 and "finished runs out of date: 1; fast was made with fill 0.05" in changed.stderr, changed.stderr
+    assert (
+        changed.returncode == 2 and "finished runs out of date: 1; fast was made with fill 0.05" in changed.stderr
+    ), changed.stderr
     assert tables(out) == tables(folder / "whole")
     again = subprocess.run([*campaign(study, out), "--again"], capture_output=True, text=True)
     assert again.returncode == 0, again.stdout + again.stderr
@@ -109,14 +115,18 @@ with tempfile.TemporaryDirectory(prefix="vielto-campaign-") as name:
     rest = subprocess.run([*campaign(study, folder / "parts"), "--only", "slow"], capture_output=True, text=True)
     assert rest.returncode == 0 and tables(folder / "parts") == tables(folder / "whole"), rest.stdout + rest.stderr
     # a shear run takes the bed of another, which comes first wherever it stands; in a portion too
-    study.write_text("run,rig,shearVelocity,bed,grainDiameter,youngsModulus,wall_youngsModulus,normalStress,settleTime,loadTime,maxPlateError,maxOverlap,displacement\n"
-                     "slow_a,shearbox,0.1,fast_b,0.006,1e6,1e6,1961,0.12,0.06,0.5,0.5,0.004\nfast_b,shearbox,0.2,,0.006,1e6,1e6,1961,0.12,0.06,0.5,0.5,0.004\n")
+    study.write_text(
+        "run,rig,shearVelocity,bed,grainDiameter,youngsModulus,wall_youngsModulus,normalStress,settleTime,loadTime,maxPlateError,maxOverlap,displacement\n"
+        "slow_a,shearbox,0.1,fast_b,0.006,1e6,1e6,1961,0.12,0.06,0.5,0.5,0.004\nfast_b,shearbox,0.2,,0.006,1e6,1e6,1961,0.12,0.06,0.5,0.5,0.004\n"
+    )
     beds = subprocess.run([*campaign(study, folder / "beds"), "--only", "_a"], capture_output=True, text=True)
     assert beds.returncode == 0, beds.stdout + beds.stderr + (folder / "beds/snakemake.log").read_text()
     filled = [(folder / "beds/runs" / run / "bed.restart").exists() for run in ("slow_a", "fast_b")]
     assert filled == [False, True], filled
     # one that stops by itself is named; the tables hold the others
-    study.write_text(STUDY.splitlines()[0] + "\n" + STUDY.splitlines()[2] + "\nwedged,mixer,1.5,0.05,0.016,2e5,2e5,1e-6,0.2,3,1\n")
+    study.write_text(
+        STUDY.splitlines()[0] + "\n" + STUDY.splitlines()[2] + "\nwedged,mixer,1.5,0.05,0.016,2e5,2e5,1e-6,0.2,3,1\n"
+    )
     part = subprocess.run(campaign(study, folder / "wedged"), capture_output=True, text=True)
     assert part.returncode == 1 and "not in the tables: wedged; " in part.stderr, part
     held = (folder / "wedged/numbers.csv").read_text().splitlines()
@@ -127,27 +137,37 @@ with tempfile.TemporaryDirectory(prefix="vielto-campaign-") as name:
     third = subprocess.run(campaign(study, folder / "whole"), capture_output=True, text=True)
     assert third.returncode == 0 and tables(folder / "whole") == before, third.stdout + third.stderr
 
-    for text, fault in (("run,rig,seed\na,mill,1\n", "line 2: a run needs a name in `run` and one of mixer, shearbox, repose"),
-                        ("run,rig,seed\na,mixer,1\na,mixer,2\n", "line 3: run a is there twice"),
-                        ("run,rig,bed\na,shearbox,b\n", "line 2: bed b is no run of this study"),
-                        ("run,rig,seed\na,mixer\n", "line 2: it has not as many cells as the header"),
-                        ("run,rig,seed\nidle_1,mixer,1\n", "line 2: 'idle_1' is no name for a run"),
-                        ("run,rig,seed\na b,mixer,1\n", "line 2: 'a b' is no name for a run"),
-                        ("run,rig,seed\n", "there are no runs in it")):
+    for text, fault in (
+        ("run,rig,seed\na,mill,1\n", "line 2: a run needs a name in `run` and one of mixer, shearbox, repose"),
+        ("run,rig,seed\na,mixer,1\na,mixer,2\n", "line 3: run a is there twice"),
+        ("run,rig,bed\na,shearbox,b\n", "line 2: bed b is no run of this study"),
+        ("run,rig,seed\na,mixer\n", "line 2: it has not as many cells as the header"),
+        ("run,rig,seed\nidle_1,mixer,1\n", "line 2: 'idle_1' is no name for a run"),
+        ("run,rig,seed\na b,mixer,1\n", "line 2: 'a b' is no name for a run"),
+        ("run,rig,seed\n", "there are no runs in it"),
+    ):
         study.write_text(text)
         refused = subprocess.run(campaign(study, folder / "bad"), capture_output=True, text=True)
         assert refused.returncode == 2 and fault in refused.stderr, refused
         assert not (folder / "bad").exists()
     study.write_bytes(bytes(range(256)))
-    for words, fault in (((study, folder / "bad"), "is no CSV table"), ((folder, folder / "bad"), "there is no study"),
-                         ((folder / "none.csv", folder / "bad"), "known: calibration"), (("grid", study), "cannot be made")):
+    for words, fault in (
+        ((study, folder / "bad"), "is no CSV table"),
+        ((folder, folder / "bad"), "there is no study"),
+        ((folder / "none.csv", folder / "bad"), "known: calibration"),
+        (("grid", study), "cannot be made"),
+    ):
         refused = subprocess.run(campaign(*words), capture_output=True, text=True)
         assert refused.returncode == 2 and fault in refused.stderr and refused.stderr.count("\n") == 1, refused
     none = subprocess.run([*campaign("grid", folder / "bad"), "--cores", "0"], capture_output=True, text=True)
     assert none.returncode == 2 and "'0' is no number of runs" in none.stderr, none
     missing = subprocess.run(campaign("nonsense", folder / "bad"), capture_output=True, text=True)
-    assert missing.returncode == 2 and "there is no study nonsense; known: " in missing.stderr and "grid" in missing.stderr, missing
-    assert program.work({"rig": "mixer", "speed": "0"}) == 0 and program.work({"rig": "mixer", "youngsModulus": "-1"}) == 0
+    assert (
+        missing.returncode == 2 and "there is no study nonsense; known: " in missing.stderr and "grid" in missing.stderr
+    ), missing
+    assert (
+        program.work({"rig": "mixer", "speed": "0"}) == 0 and program.work({"rig": "mixer", "youngsModulus": "-1"}) == 0
+    )
     study.write_text("run,rig,speed\na,mixer,-1\n")
     failed = subprocess.run(campaign(study, folder / "failed"), capture_output=True, text=True)
     assert failed.returncode == 1 and "not all runs ended well" in failed.stderr, failed

@@ -17,11 +17,11 @@ namespace {
 const double pi = 3.14159265358979323846;
 
 struct Cone {
-  double angle = 26;    // deg
-  double height = 20;   // diameters
+  double angle = 26;     // deg
+  double height = 20;    // diameters
   double packing = 0.6;  // volume of the grains over that of the cone
-  double off_axis = 0;  // diameters
-  double ridge = 0;     // deg: one side steeper, the other flatter by this
+  double off_axis = 0;   // diameters
+  double ridge = 0;      // deg: one side steeper, the other flatter by this
 };
 
 // Places without regard to each other: the noise of the surface is that of a loose bed or worse.
@@ -82,8 +82,8 @@ TEST(ConeFit, ShowsAnglesThatDifferOverTheAzimuth) {
   EXPECT_NEAR(uneven.spread, std::sqrt(even.spread * even.spread + 6.0 * 6.0 / 2), 1.5);
 }
 
-// Sectors instead of strips of one width would hold more grains further out and flatten the line; so would the choice of
-// the flank by the height of single cells. Both show as a curvature or bias that this cone does not have.
+// Sectors instead of strips of one width would hold more grains further out and flatten the line; so would the choice
+// of the flank by the height of single cells. Both show as a curvature or bias that this cone does not have.
 TEST(ConeFit, SeesNoCurvatureInAStraightFlank) {
   double mean = 0;
   for (unsigned seed = 1; seed <= 20; seed++) mean += cone_fit(heap(Cone(), seed)).curvature / 20;

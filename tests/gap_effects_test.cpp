@@ -24,25 +24,25 @@ TEST(GapEffects, AllOfTheProtocol) {
     names.insert(e.name);
     EXPECT_GE(e.source.size(), 10u) << e.name;
   }
-  EXPECT_EQ(names,
-            (std::set<std::string>{"cohesion", "shape", "wall_friction", "size_spread", "dissipation", "air_drag",
-                                   "paddle_clearance", "wall_rolling", "drive_loss", "idle_drift", "speed_slip", "fill_error",
-                                   "sensor_gain", "coarse_grain", "soft_grain", "slice_ends", "faceting"}));
+  EXPECT_EQ(names, (std::set<std::string>{"cohesion", "shape", "wall_friction", "size_spread", "dissipation",
+                                          "air_drag", "paddle_clearance", "wall_rolling", "drive_loss", "idle_drift",
+                                          "speed_slip", "fill_error", "sensor_gain", "coarse_grain", "soft_grain",
+                                          "slice_ends", "faceting"}));
 }
 
 // A switch stands in the mixer's parameters or a card, or the page lists it as missing.
 TEST(GapEffects, TheMixerKnowsEverySwitchOrThePageSaysThatItDoesNot) {
   const std::string cases = VIELTO_SOURCE_DIR "/cases/", cards = VIELTO_SOURCE_DIR "/materials/";
-  const ParFile mixer = ParFile::read(cases + "mixer/mixer.par"), law = ParFile::read(cases + "law.par"), grain = ParFile::read(cards + "hulled_millet.par"),
-                wall = ParFile::read(cards + "steel.par");
+  const ParFile mixer = ParFile::read(cases + "mixer/mixer.par"), law = ParFile::read(cases + "law.par"),
+                grain = ParFile::read(cards + "hulled_millet.par"), wall = ParFile::read(cards + "steel.par");
   std::ifstream in(kGap + "README.md");
   std::ostringstream page;
   page << in.rdbuf();
   for (const Effect& e : effects())
     for (const VarChange& v : e.vars) {
       if (!v.acts_on("mixer")) continue;
-      const bool known =
-          mixer.has(v.name) || law.has(v.name) || grain.has(v.name) || (v.name.rfind("wall_", 0) == 0 && wall.has(v.name.substr(5)));
+      const bool known = mixer.has(v.name) || law.has(v.name) || grain.has(v.name) ||
+                         (v.name.rfind("wall_", 0) == 0 && wall.has(v.name.substr(5)));
       if (!known) {
         EXPECT_NE(page.str().find("| `" + v.name + "` |"), std::string::npos) << e.name << ": " << v.name;
       }

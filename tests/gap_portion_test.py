@@ -26,7 +26,9 @@ name = "wall_friction"
 strengths = [7, 14]
 at = [1, 2]
 """
-HEADER = "test,role,apparatus,observable,value,u,unit,speed,fill,moisture,normal_stress,shear_velocity,tilt,wall,material"
+HEADER = (
+    "test,role,apparatus,observable,value,u,unit,speed,fill,moisture,normal_stress,shear_velocity,tilt,wall,material"
+)
 
 
 class Portion(unittest.TestCase):
@@ -64,10 +66,13 @@ class Portion(unittest.TestCase):
             folder = self.folder / results
             (folder / "runs" / run["run"]).mkdir(parents=True, exist_ok=True)
             (folder / "post").mkdir(exist_ok=True)
-            (folder / "runs" / run["run"] / "run.json").write_text(json.dumps({"hashes": {"in.drum": script}, "parameters": dict(run)}))
+            (folder / "runs" / run["run"] / "run.json").write_text(
+                json.dumps({"hashes": {"in.drum": script}, "parameters": dict(run)})
+            )
             value = 36 + float(run["tilt"]) / 6 + 0.1 * int(run["seed"]) + shift
             (folder / "post" / f"{run['run']}.csv").write_text(
-                f"{HEADER}\n{run['run']},fit,drum,angle,{value},0.5,deg,0.083333,0.5,,,,{run['tilt']},wall_A,wheat\n")
+                f"{HEADER}\n{run['run']},fit,drum,angle,{value},0.5,deg,0.083333,0.5,,,,{run['tilt']},wall_A,wheat\n"
+            )
 
     def library(self):
         """file -> its rows, in any order"""
@@ -128,7 +133,9 @@ class Portion(unittest.TestCase):
         self.assertIn("2 runs added, 14 of 16", done.stdout)
         self.assertIn("4 of wall_friction taken out", done.stdout)
         self.assertIn("wall_friction,drum,wall_frictionAngle offset 3", self.library()["effects.csv"])
-        self.assertNotIn("wall_friction14", "\n".join(self.library()["design.csv"] + self.library()["observations.csv"]))
+        self.assertNotIn(
+            "wall_friction14", "\n".join(self.library()["design.csv"] + self.library()["observations.csv"])
+        )
 
     def test_a_changed_file_needs_runs_that_show_that_it_makes_no_difference(self):
         self.finish("first", self.runs[:12])
@@ -159,7 +166,9 @@ class Portion(unittest.TestCase):
         self.assertEqual(done.returncode, 2)
         self.assertIn("has other numbers", done.stderr)
         self.assertEqual(self.library(), before)
-        self.assertEqual([p.name for p in (self.folder / "gap").iterdir() if p.is_dir() and p.name.startswith("tmp")], [])
+        self.assertEqual(
+            [p.name for p in (self.folder / "gap").iterdir() if p.is_dir() and p.name.startswith("tmp")], []
+        )
 
 
 if __name__ == "__main__":

@@ -16,14 +16,25 @@ def responses(*words):
 with tempfile.TemporaryDirectory(prefix="vielto-responses-") as name:
     folder = pathlib.Path(name)
     # baseline 9, 10, 11 (mean 10, scatter 10 %); two runs of an effect 14 and 16; one member 8 with u = 2
-    runs = [("a", "none", 0, 1, 20, 9, 0.1), ("b", "none", 0, 2, 20, 10, 0.1), ("c", "none", 0, 3, 20, 11, 0.1),
-            ("d", "shape", 0.2, 1, 20, 14, 0.1), ("e", "shape", 0.2, 2, 20, 16, 0.1), ("f", "none", 0, 1, 25, 8, 2)]
-    (folder / "design.csv").write_text("test,effect,strength,seed,run_hash,frictionAngle\n" +
-                                       "".join(f"{t},{e},{s},{k},{t},{p}\n" for t, e, s, k, p, _, _ in runs))
+    runs = [
+        ("a", "none", 0, 1, 20, 9, 0.1),
+        ("b", "none", 0, 2, 20, 10, 0.1),
+        ("c", "none", 0, 3, 20, 11, 0.1),
+        ("d", "shape", 0.2, 1, 20, 14, 0.1),
+        ("e", "shape", 0.2, 2, 20, 16, 0.1),
+        ("f", "none", 0, 1, 25, 8, 2),
+    ]
+    (folder / "design.csv").write_text(
+        "test,effect,strength,seed,run_hash,frictionAngle\n"
+        + "".join(f"{t},{e},{s},{k},{t},{p}\n" for t, e, s, k, p, _, _ in runs)
+    )
     (folder / "observations.csv").write_text(
-        "test,role,apparatus,observable,value,u,unit,speed,fill,moisture,normal_stress,shear_velocity,tilt,wall,material\n" +
-        "".join(f"{t},fit,mixer,power_loaded,{v + 3},{u},W,0.5,0.1,,,,,,m\n{t},fit,mixer,power_idle,3,0,W,0.5,0.1,,,,,,m\n"
-                for t, _, _, _, _, v, u in runs))
+        "test,role,apparatus,observable,value,u,unit,speed,fill,moisture,normal_stress,shear_velocity,tilt,wall,material\n"
+        + "".join(
+            f"{t},fit,mixer,power_loaded,{v + 3},{u},W,0.5,0.1,,,,,,m\n{t},fit,mixer,power_idle,3,0,W,0.5,0.1,,,,,,m\n"
+            for t, _, _, _, _, v, u in runs
+        )
+    )
     told = responses(folder)
     assert told.returncode == 0, told.stderr
     assert "one seed scatters by 10.0 % at speed 0.5, fill 0.1" in told.stdout, told.stdout
@@ -39,10 +50,14 @@ with tempfile.TemporaryDirectory(prefix="vielto-responses-") as name:
         with open(folder / "design.csv", "a") as file:
             file.write(f"m{k},none,0,1,m{k},{k}\n")
         with open(folder / "observations.csv", "a") as file:
-            file.write(f"m{k},fit,mixer,power_loaded,{v + 3},0.1,W,0.5,0.1,,,,,,m\nm{k},fit,mixer,power_idle,3,0,W,0.5,0.1,,,,,,m\n")
+            file.write(
+                f"m{k},fit,mixer,power_loaded,{v + 3},0.1,W,0.5,0.1,,,,,,m\nm{k},fit,mixer,power_idle,3,0,W,0.5,0.1,,,,,,m\n"
+            )
     told = responses(folder)
     sd = math.sqrt(700 - (20**2 + 12**2 + 13**2) / 3)
-    assert f"(3 members): +10 %, 95 % band {10 - 2 * sd:+.0f} … {10 + 2 * sd:+.0f} % at speed 0.5, fill 0.1" in told.stdout, told.stdout
+    assert (
+        f"(3 members): +10 %, 95 % band {10 - 2 * sd:+.0f} … {10 + 2 * sd:+.0f} % at speed 0.5, fill 0.1" in told.stdout
+    ), told.stdout
 
     # two effects at once: 24 of 10; shape makes 1.5 and wall_friction 12 of 10: 1.8 if they multiply, a third more together
     with open(folder / "design.csv", "a") as file:
@@ -55,19 +70,34 @@ with tempfile.TemporaryDirectory(prefix="vielto-responses-") as name:
     name = "pair1_shape0.2_and_wall_friction5_s1"
     pair.write_text(header + "\n" + row.format(name, 0.5, name, 0.5))
     told = responses(folder, "--pairs", pair)
-    beyond = 100 * math.hypot(0.1, math.hypot(0.1 / math.sqrt(2), 0.1 / math.sqrt(3)), math.hypot(0.1, 0.1 / math.sqrt(3)))
+    beyond = 100 * math.hypot(
+        0.1, math.hypot(0.1 / math.sqrt(2), 0.1 / math.sqrt(3)), math.hypot(0.1, 0.1 / math.sqrt(3))
+    )
     chi2 = 100 / 3 / beyond, 100 / 3 / math.hypot(beyond, 5)
     assert f"chi2 of 1 pairs {chi2[0] ** 2:.1f}, {chi2[1] ** 2:.1f} with" in told.stdout, told.stdout
-    assert f"| shape 0.2 and wall_friction 5 | speed 0.5, fill 0.1 | +140 ± 24 % | +80 % | +10.0 % | +33 ± {beyond:.0f} % |" in told.stdout, told.stdout + told.stderr
-    for name, speed, fault in (("two", 0.5, "does not name a pair"), ("p_shape0.2_and_cohesion5_s1", 0.5, "has no run of cohesion 5"),
-                               ("p_shape0.2_and_wall_friction5_s1", 0.7, "has no baseline at speed 0.7")):
+    assert (
+        f"| shape 0.2 and wall_friction 5 | speed 0.5, fill 0.1 | +140 ± 24 % | +80 % | +10.0 % | +33 ± {beyond:.0f} % |"
+        in told.stdout
+    ), (told.stdout + told.stderr)
+    for name, speed, fault in (
+        ("two", 0.5, "does not name a pair"),
+        ("p_shape0.2_and_cohesion5_s1", 0.5, "has no run of cohesion 5"),
+        ("p_shape0.2_and_wall_friction5_s1", 0.7, "has no baseline at speed 0.7"),
+    ):
         pair.write_text(header + "\n" + row.format(name, speed, name, speed))
         refused = responses(folder, "--pairs", pair)
-        assert refused.returncode == 2 and fault in refused.stderr and refused.stderr.count("\n") == 1 and not refused.stdout, refused
+        assert (
+            refused.returncode == 2
+            and fault in refused.stderr
+            and refused.stderr.count("\n") == 1
+            and not refused.stdout
+        ), refused
     pair.unlink()
 
-    for words, fault in (((folder, "--observable", "angle"), "there is no angle in it; --observable takes power_idle, power_loaded"),
-                         ((folder / "none",), "name a response library")):
+    for words, fault in (
+        ((folder, "--observable", "angle"), "there is no angle in it; --observable takes power_idle, power_loaded"),
+        ((folder / "none",), "name a response library"),
+    ):
         refused = responses(*words)
         assert refused.returncode == 2 and fault in refused.stderr and refused.stderr.count("\n") == 1, refused
     # a reader that closes at once: no traceback
@@ -84,6 +114,9 @@ with tempfile.TemporaryDirectory(prefix="vielto-responses-") as name:
         assert drawn.returncode == 0 and "<svg" in picture.read_text(), drawn.stderr
     assert not list(folder.glob("*.partial*"))
 
-for library, observable, words in (("library", "power", "| slice_ends | 1 |"), ("library_wheat", "angle", "| wall_friction | 14 |")):
+for library, observable, words in (
+    ("library", "power", "| slice_ends | 1 |"),
+    ("library_wheat", "angle", "| wall_friction | 14 |"),
+):
     told = responses(ROOT / "gap" / library, "--observable", observable)
     assert told.returncode == 0 and words in told.stdout, told.stdout + told.stderr

@@ -26,10 +26,13 @@ class ToConfirm(unittest.TestCase):
             # a variant of the settings says something else than the answer
             other = "named" if verdict == "no_gap" else "no_gap"
             (self.root / "answers" / name / "diagnosis.json").write_text(
-                json.dumps({"verdict": verdict, "sensitivity": [{"verdict": other}]}, indent=1))
+                json.dumps({"verdict": verdict, "sensitivity": [{"verdict": other}]}, indent=1)
+            )
 
     def run_it(self):
-        return subprocess.run([sys.executable, PROGRAM, self.root / "truth", self.root / "answers"], capture_output=True, text=True)
+        return subprocess.run(
+            [sys.executable, PROGRAM, self.root / "truth", self.root / "answers"], capture_output=True, text=True
+        )
 
     def test_goes_by_the_answers_verdict_alone(self):
         self.case("1", "named")

@@ -28,7 +28,8 @@ struct Outcome {
   std::string text;  // both streams
 };
 
-// Open MPI's session folder of a single process is shared by all of them and may vanish at a start: own one for this test.
+// Open MPI's session folder of a single process is shared by all of them and may vanish at a start: own one for this
+// test.
 struct SessionFolder {
   SessionFolder() {
     std::string name = (fs::temp_directory_path() / "vielto-mpi-XXXXXX").string();
@@ -59,12 +60,15 @@ std::string content(const fs::path& path) {
 class GeometryCommand : public testing::Test {
  protected:
   void SetUp() override {
-    folder = fs::temp_directory_path() / ("vielto_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()) +
-                                          std::to_string(getpid()));
+    folder = fs::temp_directory_path() /
+             ("vielto_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()) +
+              std::to_string(getpid()));
     fs::create_directories(folder);
   }
   void TearDown() override { fs::remove_all(folder); }
-  void write(const std::string& name, const std::string& text) { std::ofstream(folder / name, std::ios::binary) << text; }
+  void write(const std::string& name, const std::string& text) {
+    std::ofstream(folder / name, std::ios::binary) << text;
+  }
   Outcome make(const std::string& arguments) {
     return run(kVielto + " geometry " + arguments + " --out " + (folder / "mesh").string());
   }
@@ -92,8 +96,8 @@ const std::string kLiggghts = VIELTO_LIGGGHTS;
 
 TEST_F(GeometryCommand, WritesOneFileAPaddleForASlice) {
   ASSERT_EQ(make(kMixer).status, 0);
-  EXPECT_EQ(files(), (std::set<std::string>{"drum.stl", "shaft.stl", "stems.stl", "paddle_1.stl", "paddle_2.stl", "paddle_3.stl",
-                                            "paddle_4.stl", "geometry.par", "rotor.vtp", "drum.vtp"}));
+  EXPECT_EQ(files(), (std::set<std::string>{"drum.stl", "shaft.stl", "stems.stl", "paddle_1.stl", "paddle_2.stl",
+                                            "paddle_3.stl", "paddle_4.stl", "geometry.par", "rotor.vtp", "drum.vtp"}));
 }
 
 TEST_F(GeometryCommand, LeavesNoPaddleOfALargerMeshBehind) {
@@ -124,7 +128,8 @@ TEST_F(GeometryCommand, RefusesBadInputWithOneLineAndLeavesNoFolder) {
   expect_refusal(make(kMixer + " --set clearance"), "NAME=VALUE");
   expect_refusal(make(kMixer + " --set clearance=wide"), "wide");
   expect_refusal(make(kMixer + " --set drumSegments=12"), "drumSegments");
-  expect_refusal(run("env -u DISPLAY " + kVielto + " geometry " + kMixer + " --out " + (folder / "mesh").string() + " --picture x.png"),
+  expect_refusal(run("env -u DISPLAY " + kVielto + " geometry " + kMixer + " --out " + (folder / "mesh").string() +
+                     " --picture x.png"),
                  "display");
   EXPECT_FALSE(fs::exists(folder / "mesh"));
   EXPECT_EQ(run(kVielto + " geometry " + kMixer).status, 2);  // where to?
@@ -173,9 +178,11 @@ TEST_F(LiggghtsReads, EveryMeshInAPeriodicBoxWithoutAComplaint) {
     ASSERT_EQ(make(kMixer + " --set slicePaddles=" + slice).status, 0);
     std::string script =
         "atom_style granular\natom_modify map array\nboundary p f f\nnewton off\ncommunicate single vel yes\nunits si\n"
-        "include mesh/geometry.par\nregion box block 0 ${sliceLength} -0.13 0.13 -0.13 0.15 units box\ncreate_box 1 box\n"
+        "include mesh/geometry.par\nregion box block 0 ${sliceLength} -0.13 0.13 -0.13 0.15 units box\ncreate_box 1 "
+        "box\n"
         "neighbor 0.001 bin\nneigh_modify delay 0\npair_style gran model hooke\npair_coeff * *\ntimestep 1e-4\n"
-        "fix m1 all property/global youngsModulus peratomtype 5.e6\nfix m2 all property/global poissonsRatio peratomtype 0.45\n"
+        "fix m1 all property/global youngsModulus peratomtype 5.e6\nfix m2 all property/global poissonsRatio "
+        "peratomtype 0.45\n"
         "fix m3 all property/global coefficientRestitution peratomtypepair 1 0.3\n"
         "fix m4 all property/global coefficientFriction peratomtypepair 1 0.5\n"
         "fix m5 all property/global characteristicVelocity scalar 1.0\n";
@@ -191,15 +198,19 @@ TEST_F(LiggghtsReads, EveryMeshInAPeriodicBoxWithoutAComplaint) {
     script += "fix wall all wall/gran model hooke mesh n_meshes " + std::to_string(meshes) + " meshes" + names + "\n";
     for (const std::string name : {"shaft", "stems", "paddle_1", "paddle_2"})
       script += "fix move_" + name + " all move/mesh mesh " + name + " rotate origin 0 0 0 axis 1 0 0 period 0.04\n";
-    script += "create_atoms 1 single 0.03 0 0.14 units box\nset group all density 1375 diameter 0.004\n"  // some grain there must be
-              "fix integrate all nve/sphere\nrun 400\n";
+    script +=
+        "create_atoms 1 single 0.03 0 0.14 units box\nset group all density 1375 diameter 0.004\n"  // some grain there
+                                                                                                    // must be
+        "fix integrate all nve/sphere\nrun 400\n";
     write("load.in", script);
     const Outcome outcome = run("cd " + folder.string() + " && " + kLiggghts + " -in load.in -log none");
     EXPECT_EQ(outcome.status, 0) << outcome.text;
-    for (const char* complaint : {"ERROR", "aspect ratio", "duplicate", "overlap", "Not all nodes", "but only", "skewed"})
+    for (const char* complaint :
+         {"ERROR", "aspect ratio", "duplicate", "overlap", "Not all nodes", "but only", "skewed"})
       EXPECT_EQ(outcome.text.find(complaint), std::string::npos) << outcome.text;
     std::size_t imported = 0;
-    for (std::size_t at = 0; (at = outcome.text.find("parallelization of mesh", at)) != std::string::npos; ++at) ++imported;
+    for (std::size_t at = 0; (at = outcome.text.find("parallelization of mesh", at)) != std::string::npos; ++at)
+      ++imported;
     EXPECT_EQ(imported, static_cast<std::size_t>(meshes));
   }
 }
@@ -212,8 +223,8 @@ TEST_F(LiggghtsReads, TheRunsOwnValuesAndStopsAtOneThatContradictsTheMesh) {
   };
   EXPECT_NE(read("").text.find("read 0 90 180 270 with 0.002"), std::string::npos) << read("").text;
   EXPECT_EQ(read("-var clearance 2e-3 -var paddleHanding uniform").status, 0);
-  for (const std::string contradiction : {"clearance 0.001", "paddleHanding mirrored", "paddleHanding crooked", "slicePaddles 0",
-                                           "rig drum", "drumSegments 47"}) {
+  for (const std::string contradiction : {"clearance 0.001", "paddleHanding mirrored", "paddleHanding crooked",
+                                          "slicePaddles 0", "rig drum", "drumSegments 47"}) {
     const Outcome refused = read("-var " + contradiction);
     const std::string name = contradiction.substr(0, contradiction.find(' '));
     EXPECT_NE(refused.status, 0) << contradiction;
@@ -222,17 +233,20 @@ TEST_F(LiggghtsReads, TheRunsOwnValuesAndStopsAtOneThatContradictsTheMesh) {
   }
 }
 
-// A grain settled on the flat lowest chord (47 chords put one there) presses with its weight, and its overlap is weight over
-// stiffness: in mid-slice, on the diagonal, on the periodic seam and next to it. Were the seam counted twice, the overlap would be half.
-// On a concave chord edge (48 chords) both chords
-// carry it: k d 2 cos(half the angle between them) = weight.
+// A grain settled on the flat lowest chord (47 chords put one there) presses with its weight, and its overlap is weight
+// over stiffness: in mid-slice, on the diagonal, on the periodic seam and next to it. Were the seam counted twice, the
+// overlap would be half. On a concave chord edge (48 chords) both chords carry it: k d 2 cos(half the angle between
+// them) = weight.
 TEST_F(LiggghtsReads, SettledGrainPressesWithItsWeightAtEverySeam) {
   const auto settle = [this](int chords, const std::string& x) {
     EXPECT_EQ(make(kMixer + " --set drumSegments=" + std::to_string(chords)).status, 0);
     std::ostringstream script;
-    script << "atom_style granular\natom_modify map array\nboundary p f f\nnewton off\ncommunicate single vel yes\nunits si\n"
-              "include mesh/geometry.par\nregion box block 0 ${sliceLength} -0.13 0.13 -0.13 0.15 units box\ncreate_box 1 box\n"
-              "neighbor 0.001 bin\nneigh_modify delay 0\npair_style gran model hooke tangential no_history\npair_coeff * *\n"
+    script << "atom_style granular\natom_modify map array\nboundary p f f\nnewton off\ncommunicate single vel "
+              "yes\nunits si\n"
+              "include mesh/geometry.par\nregion box block 0 ${sliceLength} -0.13 0.13 -0.13 0.15 units "
+              "box\ncreate_box 1 box\n"
+              "neighbor 0.001 bin\nneigh_modify delay 0\npair_style gran model hooke tangential no_history\npair_coeff "
+              "* *\n"
               "timestep 2e-5\nfix m1 all property/global youngsModulus peratomtype 5.e6\n"
               "fix m2 all property/global poissonsRatio peratomtype 0.45\n"
               "fix m3 all property/global coefficientRestitution peratomtypepair 1 0.06\n"
@@ -240,9 +254,11 @@ TEST_F(LiggghtsReads, SettledGrainPressesWithItsWeightAtEverySeam) {
               "fix m5 all property/global characteristicVelocity scalar 1.0\n"
               "fix drum all mesh/surface/stress file mesh/drum.stl type 1\n"
               "fix wall all wall/gran model hooke tangential no_history mesh n_meshes 1 meshes drum\n"
-              "create_atoms 1 single " << x << " 0 " << -0.125 * std::cos(chords % 2 ? 3.14159265358979 / 94 : 0.0) + 0.00399
+              "create_atoms 1 single "
+           << x << " 0 " << -0.125 * std::cos(chords % 2 ? 3.14159265358979 / 94 : 0.0) + 0.00399
            << " units box\nset group all density 1375 diameter 0.008\nfix gravity all gravity 9.81 vector 0 0 -1\n"
-              "fix integrate all nve/sphere\nvariable z equal z[1]\nvariable force equal f_drum[3]\nvariable m equal mass[1]\n"
+              "fix integrate all nve/sphere\nvariable z equal z[1]\nvariable force equal f_drum[3]\nvariable m equal "
+              "mass[1]\n"
               "run 20000\nprint \"SETTLED $(v_z) $(v_force) $(v_m)\"\n";
     write("settle.in", script.str());
     const Outcome outcome = run("cd " + folder.string() + " && " + kLiggghts + " -in settle.in -log none");
@@ -250,7 +266,8 @@ TEST_F(LiggghtsReads, SettledGrainPressesWithItsWeightAtEverySeam) {
     EXPECT_TRUE(std::regex_search(outcome.text, found, std::regex("SETTLED (\\S+) (\\S+) (\\S+)"))) << outcome.text;
     return std::array<double, 3>{std::stod(found[1]), std::stod(found[2]), std::stod(found[3]) * 9.81};
   };
-  const double flat = -0.125 * std::cos(3.14159265358979 / 94) + 0.004;  // z of a grain that just touches the flat chord
+  const double flat =
+      -0.125 * std::cos(3.14159265358979 / 94) + 0.004;  // z of a grain that just touches the flat chord
   const auto reference = settle(47, "0.03");
   const double overlap = flat - reference[0];
   EXPECT_GT(overlap, 1e-7);

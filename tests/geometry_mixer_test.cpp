@@ -102,7 +102,8 @@ TEST(MixerDrum, HoldsTheOutlinesVolumeLessWhatItsChordsCutOff) {
   const double outline = kLength * (kPi * R * R / 2 + 2 * R * (kHeight - R));
   EXPECT_NEAR(outline * 1e3, 46.51, 0.005);  // not the booklet's 47.4 dm3
   for (const int n : {24, 48, 96}) {
-    const double volume = mixer({{"slicePaddles", "0"}, {"drumSegments", std::to_string(n)}}).number("meshedDrumVolume");
+    const double volume =
+        mixer({{"slicePaddles", "0"}, {"drumSegments", std::to_string(n)}}).number("meshedDrumVolume");
     EXPECT_NEAR(volume, kLength * chord_area(n), 1e-8 * outline);  // nine digits are written
     EXPECT_LT(volume, outline);
     EXPECT_NEAR(outline - volume, kLength * R * R * kPi * kPi * kPi / (12.0 * n * n), 2e-3 * (outline - volume) + 1e-9);
@@ -238,7 +239,8 @@ TEST(MixerClearance, IsTheTipsAndTheCornersStickOutBeyondIt) {
   EXPECT_NEAR(m.number("meshClearance"), R * std::cos(kPi / 96) - corner, 1e-9);  // six digits are written
 }
 
-// The paddle's edge of 50 mm lies along the axis, turned by 10 deg; outer stems are (drum length - 21 pitches)/2 from the walls.
+// The paddle's edge of 50 mm lies along the axis, turned by 10 deg; outer stems are (drum length - 21 pitches)/2 from
+// the walls.
 TEST(MixerClearance, ToTheEndWallsIsThatOfTheOuterPaddles) {
   const double half = 0.025 * std::cos(10 * kPi / 180) + 0.001 * std::sin(10 * kPi / 180);
   for (const char* pitch : {"0.033", "0.031"}) {
@@ -307,7 +309,8 @@ TEST(MixerStem, BeginsDeepInsideTheShaftAndEndsInsideThePaddlesRange) {
 TEST(MixerMesh, HasNoTriangleThatLiggghtsDislikes) {
   for (const char* slice : {"0", "2", "4", "6"}) {
     const Mixer m = mixer({{"slicePaddles", slice}});
-    for (const Part& part : m.geometry.parts) EXPECT_GT(measure(part.triangles).smallest_angle, 1.0 * kPi / 180) << part.name;
+    for (const Part& part : m.geometry.parts)
+      EXPECT_GT(measure(part.triangles).smallest_angle, 1.0 * kPi / 180) << part.name;
   }
 }
 

@@ -92,8 +92,8 @@ TEST(ShearBox, StaysTightUpToTheStatedShearDisplacement) {
   EXPECT_GE(upper.high.x() - s, 0.03 - 1e-15);
 }
 
-// Flush walls of two meshes would both count a grain at the split: within sqrt(2 R overlap) of an edge, 0.09 mm for R = 0.9 mm at
-// 0.5 % overlap. The halves stand farther apart than that and closer than a grain can pass.
+// Flush walls of two meshes would both count a grain at the split: within sqrt(2 R overlap) of an edge, 0.09 mm for R =
+// 0.9 mm at 0.5 % overlap. The halves stand farther apart than that and closer than a grain can pass.
 TEST(ShearBox, HalvesDoNotShareAnEdge) {
   const Rig box = rig("shearbox");
   const double gap = 0.0002;
@@ -147,7 +147,8 @@ TEST(Repose, DiscIsTheStatedPolygon) {
 
 TEST(RotatingDrum, HoldsTheVolumeOfItsPolygonAndFacesTheGrains) {
   const Rig drum = rig("drum");
-  EXPECT_NEAR(drum.number("meshedDrumVolume"), 0.05 * 48 * 0.075 * 0.075 * std::sin(2 * kPi / 96), 1e-12);  // nine digits are written
+  EXPECT_NEAR(drum.number("meshedDrumVolume"), 0.05 * 48 * 0.075 * 0.075 * std::sin(2 * kPi / 96),
+              1e-12);  // nine digits are written
   for (const char* part : {"drum", "ends"})
     for (const Triangle& t : drum.part(part)) EXPECT_GT(normal(t).dot(Point(0.025, 0, 0) - centre(t)), 0);
 }

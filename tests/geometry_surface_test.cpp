@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Building blocks of the meshes, against closed forms. Tolerances are a few rounding errors of the quantity unless stated.
-#include "surface.h"
-
+// Building blocks of the meshes, against closed forms. Tolerances are a few rounding errors of the quantity unless
+// stated.
 #include <gtest/gtest.h>
 
 #include <cmath>
+
+#include "surface.h"
 
 using namespace vielto;
 
@@ -12,7 +13,8 @@ namespace {
 
 Surface tilted_box() {
   const double a = 0.3;
-  return box({0.01, 0.02, 0.03}, {0.025 * std::cos(a), 0.025 * std::sin(a), 0}, {-0.01 * std::sin(a), 0.01 * std::cos(a), 0}, {0, 0, 0.001});
+  return box({0.01, 0.02, 0.03}, {0.025 * std::cos(a), 0.025 * std::sin(a), 0},
+             {-0.01 * std::sin(a), 0.01 * std::cos(a), 0}, {0, 0, 0.001});
 }
 
 }  // namespace
@@ -27,7 +29,8 @@ TEST(Box, IsClosedWithOutwardNormalsAndTheVolumeOfItsEdges) {
 }
 
 TEST(Box, ListsItsLargestFacesLast) {
-  for (const Surface& faces : {box({0, 0, 0}, {1, 0, 0}, {0, 10, 0}, {0, 0, 5}), box({0, 0, 0}, {5, 0, 0}, {0, 1, 0}, {0, 0, 10})})
+  for (const Surface& faces :
+       {box({0, 0, 0}, {1, 0, 0}, {0, 10, 0}, {0, 0, 5}), box({0, 0, 0}, {5, 0, 0}, {0, 1, 0}, {0, 0, 10})})
     for (std::size_t i = 1; i < 6; ++i)
       EXPECT_GE(measure(triangulate({faces[i]})).area, measure(triangulate({faces[i - 1]})).area * (1 - 1e-12));
 }
@@ -105,8 +108,10 @@ TEST(Overlap, TellsTouchingSolidsFromSeparateOnes) {
   const Surface turned = box({0, 0, 0}, {s, s, 0}, {-s, s, 0}, {0, 0, 1});  // its corner reaches sqrt(2) along x
   EXPECT_TRUE(overlap(cube, moved(turned, {2.41, 0, 0})));
   EXPECT_FALSE(overlap(cube, moved(turned, {2.42, 0, 0})));
-  EXPECT_TRUE(overlap(cube, moved(turned, {1.7, 1.7, 0})));   // boxes around them overlap, and so do they: 1.7 < 1 + sqrt(1/2)
-  EXPECT_FALSE(overlap(cube, moved(turned, {1.72, 1.72, 0})));  // corner to face along the diagonal: sqrt(2) + 1 = 2.414 < 2.432
+  EXPECT_TRUE(
+      overlap(cube, moved(turned, {1.7, 1.7, 0})));  // boxes around them overlap, and so do they: 1.7 < 1 + sqrt(1/2)
+  EXPECT_FALSE(
+      overlap(cube, moved(turned, {1.72, 1.72, 0})));  // corner to face along the diagonal: sqrt(2) + 1 = 2.414 < 2.432
 }
 
 TEST(Radius, OfTheFarthestVertexFromTheXAxis) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// `vielto import yade` through its command line: synthetic torque text with a known answer, files that Yade itself wrote
-// (tests/data/yade), and bad input.
+// `vielto import yade` through its command line: synthetic torque text with a known answer, files that Yade itself
+// wrote (tests/data/yade), and bad input.
 #include <gtest/gtest.h>
 #include <stdlib.h>
 #include <sys/wait.h>
@@ -41,7 +41,8 @@ struct YadePlot {
     const int rows = static_cast<int>(std::lround(turns * per_turn));
     for (int i = 0; i <= rows; ++i) {
       const double turn = i / per_turn;
-      const double torque = mean + swing * std::cos(2 * kPi * 4 * turn) + drift * turn + start_up * std::exp(-2 * turn) + noise * normal(random);
+      const double torque = mean + swing * std::cos(2 * kPi * 4 * turn) + drift * turn +
+                            start_up * std::exp(-2 * turn) + noise * normal(random);
       out << torque << "\t" << 100 * i << "\t" << turn / speed << "\n";
       if (nan_rows) out << "nan\t" << 100 * i + 50 << "\t" << (turn + 0.5 / per_turn) / speed << "\n";
       if (i == rows / 2) out << extra;
@@ -58,10 +59,13 @@ class ImportYade : public testing::Test {
   }
   void TearDown() override { fs::remove_all(folder_); }
 
-  void write(const std::string& name, const std::string& text) { std::ofstream(folder_ / name, std::ios::binary) << text; }
+  void write(const std::string& name, const std::string& text) {
+    std::ofstream(folder_ / name, std::ios::binary) << text;
+  }
   int import(const std::string& arguments, const std::string& test = "A") {
-    const std::string command = "cd '" + folder_.string() + "' && '" VIELTO_BIN_DIR "/vielto' import yade --out table.csv --test " + test +
-                                " " + arguments + " > out.txt 2> err.txt";
+    const std::string command = "cd '" + folder_.string() +
+                                "' && '" VIELTO_BIN_DIR "/vielto' import yade --out table.csv --test " + test + " " +
+                                arguments + " > out.txt 2> err.txt";
     const int status = std::system(command.c_str());
     err_ = content(folder_ / "err.txt");
     return WEXITSTATUS(status);
@@ -124,15 +128,16 @@ TEST_F(ImportYade, ColumnsUnitsAndStartAreTheUsers) {
   YadePlot plot;
   plot.noise = 0;
   const double dt = 1 / (plot.speed * plot.per_turn * 100);  // i counts steps, 100 a row
-  write("plot.txt", "my_T,time\n" + [&] {
-    std::istringstream in(plot.text());
-    std::string line, out;
-    double torque, i, t;
-    while (std::getline(in, line))
-      if (std::sscanf(line.c_str(), "%lf %lf %lf", &torque, &i, &t) == 3)
-        out += std::to_string(-1000 * torque) + "," + std::to_string(i) + "\n";
-    return out;
-  }());
+  write(
+      "plot.txt", "my_T,time\n" + [&] {
+        std::istringstream in(plot.text());
+        std::string line, out;
+        double torque, i, t;
+        while (std::getline(in, line))
+          if (std::sscanf(line.c_str(), "%lf %lf %lf", &torque, &i, &t) == 3)
+            out += std::to_string(-1000 * torque) + "," + std::to_string(i) + "\n";
+        return out;
+      }());
   std::ostringstream factor;
   factor.precision(17);
   factor << dt;

@@ -8,7 +8,8 @@ using namespace vielto_test;
 
 // A stress in every row of the log makes LIGGGHTS ask for the virial, which our loop leaves to LIGGGHTS' own.
 const char* const general_loop =
-    "compute stress all stress/atom\ncompute sum all reduce sum c_stress[1]\nthermo_style custom step c_sum\nthermo 1\n";
+    "compute stress all stress/atom\ncompute sum all reduce sum c_stress[1]\nthermo_style custom step c_sum\nthermo "
+    "1\n";
 
 class PairLoop : public testing::TestWithParam<const char*> {};
 
@@ -27,8 +28,10 @@ TEST_P(PairLoop, HistoryEndsWithTheContact) {
   grain.v = {0.3, 0, -0.4};
   Liggghts whole;
   whole.script = start(whole, grain) +
-                 fmt::format("run {}\nvelocity flying set 0 0 100 units box\nrun {}\nvelocity flying set 0 0 -0.4 units box\n"
-                             "run {}\n", loaded, apart - loaded, back);
+                 fmt::format(
+                     "run {}\nvelocity flying set 0 0 100 units box\nrun {}\nvelocity flying set 0 0 -0.4 units box\n"
+                     "run {}\n",
+                     loaded, apart - loaded, back);
   whole.must();
   const Table between = whole.dump("states")[1], end = whole.dump("states").back();
   ASSERT_GT(std::fabs(between.w(1)[1]), 1) << "friction has acted";

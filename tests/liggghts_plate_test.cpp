@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// `fix vielto/plate` through `liggghts`, against closed forms: free fall, sinking against a damper, a plate on a column of
-// grains as a spring and a dashpot, its weight at rest; restart, two ranks, and what it refuses.
+// `fix vielto/plate` through `liggghts`, against closed forms: free fall, sinking against a damper, a plate on a column
+// of grains as a spring and a dashpot, its weight at rest; restart, two ranks, and what it refuses.
 #include "liggghts_runner.h"
 
 namespace {
@@ -102,8 +102,8 @@ INSTANTIATE_TEST_SUITE_P(SpringAndDashpot, PlateOnGrains, testing::Values(0.0, 1
 TEST(Plate, RestsOnTheGrainsWithItsWeight) {
   Liggghts run;
   const double M = 5, k = 0.5 * columns * contact_spring();
-  run.script = column(run, fmt::format("mass {} damping {} start {}", M, 2 * std::sqrt(k * M), 2 * R), 0.3) +
-               "run 60000\n";
+  run.script =
+      column(run, fmt::format("mass {} damping {} start {}", M, 2 * std::sqrt(k * M), 2 * R), 0.3) + "run 60000\n";
   run.must();
   const Table t = run.thermo();
   EXPECT_NEAR(t.at(t.rows.size() - 1, "F"), M * g, 1e-9 * M * g);
@@ -111,8 +111,8 @@ TEST(Plate, RestsOnTheGrainsWithItsWeight) {
   EXPECT_NEAR(2 * R - t.at(t.rows.size() - 1, "z"), depth, 1e-9 * R);
 }
 
-// Position, velocity and force come back: the same motion as without a break. Without dashpots the forces of a restart's
-// first step are those of the run; only the order of sums may differ.
+// Position, velocity and force come back: the same motion as without a break. Without dashpots the forces of a
+// restart's first step are those of the run; only the order of sums may differ.
 TEST(Plate, GoesOnFromARestart) {
   Liggghts whole, broken;
   const std::string plate = "mass 1 start 0.0101";

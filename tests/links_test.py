@@ -7,7 +7,9 @@ import subprocess
 import sys
 
 root = pathlib.Path(__file__).resolve().parent.parent
-pages = subprocess.run(["git", "-C", root, "ls-files", "*.md"], check=True, capture_output=True, text=True).stdout.split()
+pages = subprocess.run(
+    ["git", "-C", root, "ls-files", "*.md"], check=True, capture_output=True, text=True
+).stdout.split()
 missing = []
 for page in pages:
     text = (root / page).read_text()

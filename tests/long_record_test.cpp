@@ -22,7 +22,8 @@ using namespace vielto;
 class LongRecord : public testing::Test {
  protected:
   void SetUp() override {
-    folder_ = fs::temp_directory_path() / (std::string("vielto_long_") + testing::UnitTest::GetInstance()->current_test_info()->name());
+    folder_ = fs::temp_directory_path() /
+              (std::string("vielto_long_") + testing::UnitTest::GetInstance()->current_test_info()->name());
     fs::remove_all(folder_);
     fs::create_directories(folder_);
   }
@@ -52,7 +53,8 @@ TEST_F(LongRecord, BlocksAreMeansOfTurns) {
   EXPECT_EQ(longer.turns, 750);
   for (int block = 0; block < 5; ++block)
     for (int i = 0; i < kPhases; ++i) {
-      const double mean = 0.5 * (shorter.part[0][(2 * block) * kPhases + i] + shorter.part[0][(2 * block + 1) * kPhases + i]);
+      const double mean =
+          0.5 * (shorter.part[0][(2 * block) * kPhases + i] + shorter.part[0][(2 * block + 1) * kPhases + i]);
       EXPECT_NEAR(longer.part[0][block * kPhases + i], mean, 1e-12);
     }
   ASSERT_EQ(longer.energy.size(), 751u);
@@ -93,7 +95,7 @@ void write_long(const fs::path& folder, long turns) {
   SyntheticRecord record = steady(1);
   fs::create_directories(folder);
   const std::string text = record.text();
-  const auto header_end = text.find('\n', text.find("\nstep,")+1) + 1;
+  const auto header_end = text.find('\n', text.find("\nstep,") + 1) + 1;
   FILE* out = std::fopen((folder / "torque.csv").c_str(), "w");
   std::fputs(text.substr(0, header_end).c_str(), out);
   std::vector<std::string> rest;  // of each row, after step, time and turn

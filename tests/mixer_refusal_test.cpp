@@ -74,12 +74,14 @@ TEST(MixerRefusesCard, WithoutAPropertyOfGrainOrWall) {
   remove_parameter(mixer, "cards/steel.par", "rollingResistance");
   expect_refusal(mixer.folder / "run", mixer.mixer("run", two, cards), {"steel.par", "rollingResistance", "missing"});
   remove_parameter(mixer, "cards/hulled_millet.par", "frictionAngle");
-  expect_refusal(mixer.folder / "run", mixer.mixer("run", two, cards), {"hulled_millet.par", "frictionAngle", "missing"});
+  expect_refusal(mixer.folder / "run", mixer.mixer("run", two, cards),
+                 {"hulled_millet.par", "frictionAngle", "missing"});
 }
 
 TEST(MixerRefusesCard, OnTwoRanksWithOneLineToo) {
   Mixer mixer;
-  expect_refusal(mixer.folder / "run", mixer.mixer("run", two, "-var grain moon_dust", 2), {"moon_dust.par", "cannot be read"});
+  expect_refusal(mixer.folder / "run", mixer.mixer("run", two, "-var grain moon_dust", 2),
+                 {"moon_dust.par", "cannot be read"});
 }
 
 TEST(MixerRefusesFolder, ThatIsThereAlready) {
@@ -114,7 +116,8 @@ TEST(MixerRefusesLoss, OfAGrain) {
   Mixer mixer;
   const Outcome outcome = mixer.mixer(
       "run", two, "-var speed 20 -var turns 2 -var maxOverlap 0 -var youngsModulus 2e4 -var wall_youngsModulus 2e4");
-  expect_refusal(mixer.folder / "run", outcome, {"step", "178 of 179 grains are there; grain ", "was lost", "velocity"});
+  expect_refusal(mixer.folder / "run", outcome,
+                 {"step", "178 of 179 grains are there; grain ", "was lost", "velocity"});
 }
 
 // Softer still: they fall through the drum before the rotor turns.
@@ -122,5 +125,6 @@ TEST(MixerRefusesLoss, OfAGrainWhileFilling) {
   Mixer mixer;
   const Outcome outcome =
       mixer.mixer("run", two, "-var maxOverlap 0 -var youngsModulus 100 -var wall_youngsModulus 100");
-  expect_refusal(mixer.folder / "run", outcome, {"step", "every 1000 steps", "of 179 grains are there; grain ", "was lost", "velocity"});
+  expect_refusal(mixer.folder / "run", outcome,
+                 {"step", "every 1000 steps", "of 179 grains are there; grain ", "was lost", "velocity"});
 }

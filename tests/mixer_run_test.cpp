@@ -191,7 +191,8 @@ TEST(MixerWholeDrum, WarnsOfLessThanTwoGrainsBesideItsOuterPaddles) {
   const std::string near = text("near", "-var slicePaddles 0 -var paddlePitch 0.033");
   EXPECT_NE(near.find("Warning: the outer paddles leave 0.93"), std::string::npos) << near;  // 11.206 mm over 12 mm
   EXPECT_NE(near.find("paddlePitch"), std::string::npos) << near;
-  for (const std::string& quiet : {text("far", "-var slicePaddles 0 -var paddlePitch 0.031"), text("slice", "-var slicePaddles 4")})
+  for (const std::string& quiet :
+       {text("far", "-var slicePaddles 0 -var paddlePitch 0.031"), text("slice", "-var slicePaddles 4")})
     EXPECT_EQ(quiet.find("Warning: the outer paddles"), std::string::npos) << quiet;
 }
 
@@ -311,9 +312,9 @@ TEST(MixerRun, FolderStatesParametersAndInputs) {
   // what no -var changes is the card's
   std::ifstream card(VIELTO_SOURCE_DIR "/materials/steel.par");
   const std::string steel((std::istreambuf_iterator<char>(card)), std::istreambuf_iterator<char>());
-  EXPECT_NE(steel.find("variable frictionAngle index " +
-                       run["parameters"]["wall_frictionAngle"].get<std::string>() + " "),
-            std::string::npos);
+  EXPECT_NE(
+      steel.find("variable frictionAngle index " + run["parameters"]["wall_frictionAngle"].get<std::string>() + " "),
+      std::string::npos);
   EXPECT_EQ(run["parameters"]["seed"], "1");
   for (const char* file :
        {"in.mixer", "mixer.par", "law.par", "law.in", "vielto.in", "materials.in", "hulled_millet.par", "steel.par"})

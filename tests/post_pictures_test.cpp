@@ -52,7 +52,7 @@ bool solid_grey(Colour c) {
   return std::abs(c[0] - c[1]) < 12 && std::abs(c[1] - c[2]) < 16 && c[0] > 60 && c[0] < 200;
 }
 
-bool straw(Colour c) { return c[0] > c[1] + 10 && c[1] > c[2] + 30; }                  // grains at rest
+bool straw(Colour c) { return c[0] > c[1] + 10 && c[1] > c[2] + 30; }  // grains at rest
 
 class PostPictures : public testing::Test {
  protected:

@@ -47,7 +47,8 @@ class Stream : public testing::Test {
     std::ofstream(folder / name, std::ios::binary) << text;
     return (folder / name).string();
   }
-  // Random settings, 3 % of noise and as much u; every tenth row is held out, every fifth states loaded and idling power.
+  // Random settings, 3 % of noise and as much u; every tenth row is held out, every fifth states loaded and idling
+  // power.
   std::string table(const std::string& name, long rows, int materials = 2) {
     FILE* out = std::fopen((folder / name).c_str(), "w");
     std::fputs(kHeader, out);
@@ -60,7 +61,8 @@ class Stream : public testing::Test {
       const double p = truth * (1 + 0.03 * normal(random)), u = 0.03 * truth;
       const char* role = i % 10 == 9 ? "check" : "fit";
       const auto line = [&](const char* observable, double value, double own_u) {
-        std::fprintf(out, "t%ld,%s,mixer,%s,%.10g,%.10g,W,%.10g,%.10g,,,,,,%s\n", i, role, observable, value, own_u, n, l, m.name.c_str());
+        std::fprintf(out, "t%ld,%s,mixer,%s,%.10g,%.10g,W,%.10g,%.10g,,,,,,%s\n", i, role, observable, value, own_u, n,
+                     l, m.name.c_str());
       };
       if (i % 5 == 0) {
         line("power_loaded", p + 6, 0.8 * u);
@@ -83,10 +85,12 @@ class Stream : public testing::Test {
   fs::path folder;
 };
 
-void expect_near(double a, double b, double tolerance, const std::string& what) { EXPECT_NEAR(a, b, tolerance * std::fabs(b)) << what; }
+void expect_near(double a, double b, double tolerance, const std::string& what) {
+  EXPECT_NEAR(a, b, tolerance * std::fabs(b)) << what;
+}
 
-// The sums over rows and the certified least squares in memory (regression_nist_test) minimise the same chi2: they agree
-// to what a relative offset of 1e-7 leaves.
+// The sums over rows and the certified least squares in memory (regression_nist_test) minimise the same chi2: they
+// agree to what a relative offset of 1e-7 leaves.
 TEST_F(Stream, GivesWhatTheFitInMemoryGives) {
   const std::string path = table("t.csv", 500), one = table("one.csv", 300, 1);
   for (const Objective objective : {Objective::absolute, Objective::log, Objective::relative})
@@ -97,9 +101,11 @@ TEST_F(Stream, GivesWhatTheFitInMemoryGives) {
           request.objective = objective;
           request.weighted = weighted;
           if (fixed) request.fixed["B3"] = -0.25;
-          const PowerFit a = fit_power(request, power_data({read_reduced_table(file)}, {MixerDimensions()}, kMaterials));
+          const PowerFit a =
+              fit_power(request, power_data({read_reduced_table(file)}, {MixerDimensions()}, kMaterials));
           const PowerFit b = fit_power(request, PowerStream({file}, {MixerDimensions()}, kMaterials));
-          const std::string which = file + " objective " + std::to_string(static_cast<int>(objective)) + (weighted ? " weighted" : "") + (fixed ? " fixed" : "");
+          const std::string which = file + " objective " + std::to_string(static_cast<int>(objective)) +
+                                    (weighted ? " weighted" : "") + (fixed ? " fixed" : "");
           EXPECT_EQ(a.law.rows, b.law.rows) << which;
           EXPECT_EQ(a.law.undetermined, b.law.undetermined) << which;
           ASSERT_EQ(a.law.coefficients.size(), b.law.coefficients.size()) << which;
@@ -108,7 +114,8 @@ TEST_F(Stream, GivesWhatTheFitInMemoryGives) {
             expect_near(b.law.coefficients[i].value, a.law.coefficients[i].value, 1e-7, which);
             expect_near(b.law.coefficients[i].high95, a.law.coefficients[i].high95, 1e-6, which);
           }
-          for (std::size_t i = 0; i < a.law.combinations.size(); ++i) expect_near(b.law.combinations[i].low95, a.law.combinations[i].low95, 1e-6, which);
+          for (std::size_t i = 0; i < a.law.combinations.size(); ++i)
+            expect_near(b.law.combinations[i].low95, a.law.combinations[i].low95, 1e-6, which);
           expect_near(b.law.chi2, a.law.chi2, 1e-8, which);
           expect_near(b.law.r2, a.law.r2, 1e-8, which);
           expect_near(b.law.leave_one_out_rmse, a.law.leave_one_out_rmse, 1e-7, which);
@@ -120,26 +127,39 @@ TEST_F(Stream, GivesWhatTheFitInMemoryGives) {
 }
 
 TEST_F(Stream, RefusesWhatATableInMemoryIsRefusedFor) {
-  const std::string row = "fit,mixer,power,20,1,W,1,0.15,,,,,,millet\n", loaded = "fit,mixer,power_loaded,20,1,W,1,0.15,,,,,,millet\n";
-  EXPECT_NE(refusal(write("a.csv", kHeader + ("a," + row) + "b," + row + "a," + row)).find("a.csv, line 4, column test: 'a' stands in line 2 too"), std::string::npos);
-  EXPECT_NE(refusal(write("b.csv", kHeader + ("a," + row) + "a," + row)).find("b.csv, line 3, column observable"), std::string::npos);
-  EXPECT_NE(refusal(write("c.csv", kHeader + ("a," + loaded))).find("c.csv, line 2, column observable: power_loaded stands without power_idle"), std::string::npos);
-  EXPECT_NE(refusal(write("d.csv", kHeader + ("a," + row) + "b,fit,mixer,power,nan,1,W,1,0.15,,,,,,millet\n")).find("d.csv, line 3, column value"), std::string::npos);
-  EXPECT_NE(refusal(write("e.csv", kHeader + ("a," + row) + "b,fit,mixer,power,20,1,W,1,0.15,,,,,,corn\n")).find("e.csv, line 3, column material: no card of 'corn'"), std::string::npos);
-  EXPECT_NE(refusal(write("f.csv", kHeader + std::string("a,fit,mixer,power,20,1,W,,0.15,,,,,,millet\n"))).find("f.csv, line 2, column speed"), std::string::npos);
+  const std::string row = "fit,mixer,power,20,1,W,1,0.15,,,,,,millet\n",
+                    loaded = "fit,mixer,power_loaded,20,1,W,1,0.15,,,,,,millet\n";
+  EXPECT_NE(refusal(write("a.csv", kHeader + ("a," + row) + "b," + row + "a," + row))
+                .find("a.csv, line 4, column test: 'a' stands in line 2 too"),
+            std::string::npos);
+  EXPECT_NE(refusal(write("b.csv", kHeader + ("a," + row) + "a," + row)).find("b.csv, line 3, column observable"),
+            std::string::npos);
+  EXPECT_NE(refusal(write("c.csv", kHeader + ("a," + loaded)))
+                .find("c.csv, line 2, column observable: power_loaded stands without power_idle"),
+            std::string::npos);
+  EXPECT_NE(refusal(write("d.csv", kHeader + ("a," + row) + "b,fit,mixer,power,nan,1,W,1,0.15,,,,,,millet\n"))
+                .find("d.csv, line 3, column value"),
+            std::string::npos);
+  EXPECT_NE(refusal(write("e.csv", kHeader + ("a," + row) + "b,fit,mixer,power,20,1,W,1,0.15,,,,,,corn\n"))
+                .find("e.csv, line 3, column material: no card of 'corn'"),
+            std::string::npos);
+  EXPECT_NE(refusal(write("f.csv", kHeader + std::string("a,fit,mixer,power,20,1,W,,0.15,,,,,,millet\n")))
+                .find("f.csv, line 2, column speed"),
+            std::string::npos);
   EXPECT_EQ(refusal(write("g.csv", kHeader + ("a," + row) + "b," + row)), "");
 }
 
 double memory_of_fit(const fs::path& table, const fs::path& out) {
-  return vielto_test::memory_of({"fit", table.string(), "--material", (table.parent_path() / "millet.par").string(), "--material",
-                                 (table.parent_path() / "corn.par").string(), "--out", out.string()});
+  return vielto_test::memory_of({"fit", table.string(), "--material", (table.parent_path() / "millet.par").string(),
+                                 "--material", (table.parent_path() / "corn.par").string(), "--out", out.string()});
 }
 
 // In memory a row took 1.8 kB; here 8 bytes a test: ten times the rows may cost 4 MB, and some for the allocator.
 TEST_F(Stream, MemoryDoesNotGrowWithTheTable) {
   for (const BulkMaterial& m : kMaterials)
-    write(m.name + ".par", "variable bulkDensity index " + std::to_string(*m.bulk_density) + " # kg/m3 | 1 | test\nvariable bulkCohesion index " +
-                               std::to_string(*m.bulk_cohesion) + " # Pa | 1 | test\n");
+    write(m.name + ".par", "variable bulkDensity index " + std::to_string(*m.bulk_density) +
+                               " # kg/m3 | 1 | test\nvariable bulkCohesion index " + std::to_string(*m.bulk_cohesion) +
+                               " # Pa | 1 | test\n");
   const double short_one = memory_of_fit(table("short.csv", 50000), folder / "short.json");
   const double long_one = memory_of_fit(table("long.csv", 500000), folder / "long.json");
   EXPECT_LT(long_one, short_one + 25) << short_one << " MB and " << long_one << " MB";

@@ -52,14 +52,16 @@ std::vector<std::array<double, 2>> series(const fs::path& path, const std::strin
 class Report : public testing::Test {
  protected:
   void SetUp() override {
-    folder_ = fs::temp_directory_path() / (std::string("vielto_report_") + testing::UnitTest::GetInstance()->current_test_info()->name());
+    folder_ = fs::temp_directory_path() /
+              (std::string("vielto_report_") + testing::UnitTest::GetInstance()->current_test_info()->name());
     fs::remove_all(folder_);
     fs::create_directories(folder_);
   }
   void TearDown() override { fs::remove_all(folder_); }
 
   int run(const std::string& command) {
-    const int status = std::system(("cd '" + folder_.string() + "' && env -u DISPLAY " + command + " >out.txt 2>err.txt").c_str());
+    const int status =
+        std::system(("cd '" + folder_.string() + "' && env -u DISPLAY " + command + " >out.txt 2>err.txt").c_str());
     err_ = text_of(folder_ / "err.txt");
     return WEXITSTATUS(status);
   }
@@ -76,22 +78,29 @@ class Report : public testing::Test {
     record.speed = speed;
     record.write(folder_ / name);
     ASSERT_EQ(run(kVielto + " post " + name), 0) << err_;
-    write(name + "/run.json", R"({"status": "complete", "command": "liggghts -in in.mixer -var seed 7", "parameters": {"seed": "7", "fill": "0.15"},
+    write(
+        name + "/run.json",
+        R"({"status": "complete", "command": "liggghts -in in.mixer -var seed 7", "parameters": {"seed": "7", "fill": "0.15"},
       "versions": {"vielto": "0.1.0"}, "hashes": {"mixer.par": "499b6742"}})");
   }
   void make_fit(const std::string& name) {
     fs::create_directories(folder_ / name);
     fs::copy_file(kSource / "cases/mixer/results/thesis_equation.csv", folder_ / name / "grid.csv");
-    ASSERT_EQ(run(kVielto + " fit " + name + "/grid.csv --bulk-density 825 --bulk-cohesion 6175 --out " + name + "/equation.json"), 0) << err_;
+    ASSERT_EQ(run(kVielto + " fit " + name + "/grid.csv --bulk-density 825 --bulk-cohesion 6175 --out " + name +
+                  "/equation.json"),
+              0)
+        << err_;
   }
   void make_shear_box(const std::string& name) {
     std::string rows = "# schema=1\n# rig=shearbox\ntime_s,displacement_m,shear_force_N,plate_force_N\n";
     for (int i = 1; i <= 40; ++i) {
       const double t = 0.01 * i;
-      rows += std::to_string(t) + "," + std::to_string(0.05 * t) + "," + std::to_string(30 * (1 - std::exp(-10 * t))) + ",70.6\n";
+      rows += std::to_string(t) + "," + std::to_string(0.05 * t) + "," + std::to_string(30 * (1 - std::exp(-10 * t))) +
+              ",70.6\n";
     }
     write(name + "/shear.csv", rows);
-    write(name + "/post/shear.json", R"({"schema": 1, "shear_stress_peak_Pa": 8333.3, "notes": ["</script><script>alert(1)</script>"]})");
+    write(name + "/post/shear.json",
+          R"({"schema": 1, "shear_stress_peak_Pa": 8333.3, "notes": ["</script><script>alert(1)</script>"]})");
   }
 
   fs::path folder_;
@@ -121,7 +130,8 @@ TEST_F(Report, OfOneRunHoldsItsNumbersPlotsAndProvenance) {
   EXPECT_NEAR(power[0][1], 2 * std::acos(-1.0) * 1.21 * torque, 0.2);
   // The published equation at its fastest speed, from the definitions: N_PC C_h L^3 n.
   const double n = 1.58, cohesion = 0.114 * 0.114 * n * n * 825 / 6175, froude = 0.114 * n * n / 9.81;
-  const double published = 15.68 * std::pow(0.15, 1.04) * std::pow(cohesion, 0.1) * std::pow(froude, -0.25) * 6175 * std::pow(0.114, 3) * n;
+  const double published =
+      15.68 * std::pow(0.15, 1.04) * std::pow(cohesion, 0.1) * std::pow(froude, -0.25) * 6175 * std::pow(0.114, 3) * n;
   const auto line = series(out / "power_over_speed.csv", "l = 0.15; published equation");
   ASSERT_FALSE(line.empty());
   EXPECT_NEAR(line.back()[0], n, 1e-12);
@@ -133,7 +143,8 @@ TEST_F(Report, OfOneRunHoldsItsNumbersPlotsAndProvenance) {
     EXPECT_GT(count(svg, "<path"), 5u) << plot;
   }
   const std::string page = text_of(out / "report.html");
-  for (const char* part : {"Mixing power", "liggghts -in in.mixer -var seed 7", "499b6742", "version of vielto", "Provisional", "post/power.json"})
+  for (const char* part : {"Mixing power", "liggghts -in in.mixer -var seed 7", "499b6742", "version of vielto",
+                           "Provisional", "post/power.json"})
     EXPECT_NE(page.find(part), std::string::npos) << part;
   EXPECT_NE(err_.find("no picture of run"), std::string::npos) << err_;
   EXPECT_EQ(count(page, "src=\"http"), 0u);
@@ -156,7 +167,8 @@ TEST_F(Report, OfACampaignListsItsRuns) {
 TEST_F(Report, OfAFitShowsParityAndResidualsOverEveryGroup) {
   make_fit("equation");
   ASSERT_EQ(report("equation --out page"), 0) << err_;
-  for (const char* group : {"speed", "l", "N_C", "Fr_M"}) EXPECT_TRUE(fs::exists(folder_ / "page" / (std::string("equation_residuals_") + group + ".svg"))) << group;
+  for (const char* group : {"speed", "l", "N_C", "Fr_M"})
+    EXPECT_TRUE(fs::exists(folder_ / "page" / (std::string("equation_residuals_") + group + ".svg"))) << group;
   // The table is the booklet's equation itself, so the fit lies on it: 16 rows on the line of parity.
   const auto parity = series(folder_ / "page/equation_parity.csv", "rows fitted");
   ASSERT_EQ(parity.size(), 16u);
@@ -215,7 +227,8 @@ TEST_F(Report, WithoutThePlottingLibraryAsksForIt) {
   fs::create_directories(folder_ / "install/bin");
   fs::create_directories(folder_ / "install/share/vielto/report");
   fs::copy_file(VIELTO_BIN_DIR "/vielto", folder_ / "install/bin/vielto");
-  for (const char* file : {"page.css", "page.js", "svg.js"}) fs::copy_file(kSource / "report/web" / file, folder_ / "install/share/vielto/report" / file);
+  for (const char* file : {"page.css", "page.js", "svg.js"})
+    fs::copy_file(kSource / "report/web" / file, folder_ / "install/share/vielto/report" / file);
   EXPECT_EQ(run("install/bin/vielto report run"), 2);
   EXPECT_NE(err_.find("scripts/get-echarts"), std::string::npos) << err_;
   EXPECT_FALSE(fs::exists(folder_ / "run/report"));
@@ -233,7 +246,8 @@ class ReportInABrowser : public Report {
       GTEST_SKIP() << "needs the packages of scripts/packages/browser.txt";
   }
   json look(const std::string& page) {
-    EXPECT_EQ(run("/usr/bin/python3 '" + (kSource / "tests/report_browser.py").string() + "' " + page + " shots"), 0) << err_;
+    EXPECT_EQ(run("/usr/bin/python3 '" + (kSource / "tests/report_browser.py").string() + "' " + page + " shots"), 0)
+        << err_;
     return json::parse(text_of(folder_ / "out.txt"), nullptr, false);
   }
 };
@@ -254,8 +268,8 @@ TEST_F(ReportInABrowser, OpensOfflineOnPhoneAndDesktopLightAndDark) {
     EXPECT_EQ(page["broken_pictures"], 0) << window;
     std::map<std::string, json> plots;
     for (const json& plot : page["opened"]["plots"]) plots[plot["name"]] = plot;
-    for (const char* name : {"power_over_speed", "parity", "run_torque_over_time", "run_torque_over_phase", "equation_parity",
-                             "equation_power_over_fill", "equation_residuals_N_C", "shear_csv_N"}) {
+    for (const char* name : {"power_over_speed", "parity", "run_torque_over_time", "run_torque_over_phase",
+                             "equation_parity", "equation_power_over_fill", "equation_residuals_N_C", "shear_csv_N"}) {
       ASSERT_TRUE(plots.count(name)) << name;
       EXPECT_GT(plots[name]["marks"], 8) << window << " " << name;
       EXPECT_GT(plots[name]["words"].size(), 6u) << window << " " << name;
@@ -268,8 +282,9 @@ TEST_F(ReportInABrowser, OpensOfflineOnPhoneAndDesktopLightAndDark) {
 
 // The watch itself: a page that breaks every rule is seen to.
 TEST_F(ReportInABrowser, ABadPageWouldBeSeen) {
-  write("bad.html", "<!DOCTYPE html><title>bad</title><link rel=icon href='data:,'><main><div style='width:2000px'>wide</div>"
-                    "<img src='http://127.0.0.1:9/x.png'></main><script>console.error('oh');</script>");
+  write("bad.html",
+        "<!DOCTYPE html><title>bad</title><link rel=icon href='data:,'><main><div style='width:2000px'>wide</div>"
+        "<img src='http://127.0.0.1:9/x.png'></main><script>console.error('oh');</script>");
   const json seen = look("bad.html");
   for (const auto& [window, page] : seen.items()) {
     EXPECT_GE(page["console"].size(), 1u) << window;

@@ -41,7 +41,8 @@ TEST(ReposeRun, LeavesAHeapOfAllGrainsWithAnAngle) {
   EXPECT_NE(rig.read("run/post/observations.csv").find("coarse,fit,repose,angle,"), std::string::npos);
 }
 
-// As many clumps as spheres of the same volume and mass, each of five spheres; their number, not that of the spheres, is told.
+// As many clumps as spheres of the same volume and mass, each of five spheres; their number, not that of the spheres,
+// is told.
 TEST(ReposeRun, TakesClumps) {
   Rig rig("repose");
   const std::string corn = "-var grain fodder_corn -var fillHeight 0.03 ";
@@ -49,8 +50,7 @@ TEST(ReposeRun, TakesClumps) {
   rig.must("spheres", coarse_heap, corn);
   const Table clumps = rig.csv("clumps/heap.csv"), spheres = rig.csv("spheres/heap.csv");
   EXPECT_EQ(clumps.rows.size(), 5 * spheres.rows.size());
-  for (std::size_t k = 0; k < clumps.rows.size(); k++)
-    EXPECT_GT(clumps.at(k, "z_m"), 0.7 * clumps.at(k, "radius_m"));
+  for (std::size_t k = 0; k < clumps.rows.size(); k++) EXPECT_GT(clumps.at(k, "z_m"), 0.7 * clumps.at(k, "radius_m"));
   const auto run = nlohmann::json::parse(rig.read("clumps/run.json"));
   EXPECT_EQ(run["parameters"]["rollingResistance"], "0");
   EXPECT_TRUE(run["hashes"].contains("fodder_corn.clump"));
@@ -60,10 +60,13 @@ TEST(ReposeRun, TakesClumps) {
   EXPECT_EQ(nlohmann::json::parse(rig.read("clumps/post/repose.json"))["grains"], spheres.rows.size());
 }
 
-// Clumps are put in over several runs: the fixed grains of a rough base are there before the first falls, and none gets through.
+// Clumps are put in over several runs: the fixed grains of a rough base are there before the first falls, and none gets
+// through.
 TEST(ReposeRun, HoldsClumpsOnARoughBase) {
   Rig rig("repose");
-  rig.must("clumps", coarse_heap, "-var grain fodder_corn -var clump yes -var fillHeight 0.02 -var base rough -var baseGrain 0.6 -var baseWidth 0.2");
+  rig.must("clumps", coarse_heap,
+           "-var grain fodder_corn -var clump yes -var fillHeight 0.02 -var base rough -var baseGrain 0.6 -var "
+           "baseWidth 0.2");
   const Table spheres = rig.csv("clumps/heap.csv");
   EXPECT_EQ(spheres.rows.size() % 5, 0u);
   EXPECT_GT(spheres.rows.size(), 5 * 100u);
@@ -125,9 +128,14 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"BaseTooSmall", "-var baseWidth 0.04", {"vielto geometry", "failed"}},
         Refusal{"NoClump", "-var clump yes", {"hulled_millet.clump", "missing"}},
         Refusal{"UnknownShape", "-var clump maybe", {"clump is 'maybe'", "no or yes"}},
-        Refusal{"ClumpsFallThrough", "-var grain hulled_barley -var clump yes -var base rough", {"fall through", "baseGrain"}},
+        Refusal{"ClumpsFallThrough",
+                "-var grain hulled_barley -var clump yes -var base rough",
+                {"fall through", "baseGrain"}},
         Refusal{"ClumpsInAir", "-var grain fodder_corn -var clump yes -var airDrag 1", {"airDrag is 1", "clump no"}},
-        Refusal{"ClumpsOfCohFrict", "-var grain fodder_corn -var clump yes -var law cohfrict", {"law vielto", "clump no"}},
-        Refusal{"ClumpsWithRollingDashpot", "-var grain fodder_corn -var clump yes -var rollingDashpot on", {"rollingDashpot", "clump no"}},
+        Refusal{
+            "ClumpsOfCohFrict", "-var grain fodder_corn -var clump yes -var law cohfrict", {"law vielto", "clump no"}},
+        Refusal{"ClumpsWithRollingDashpot",
+                "-var grain fodder_corn -var clump yes -var rollingDashpot on",
+                {"rollingDashpot", "clump no"}},
         Refusal{"NeverAtRest", "-var restDistance 1e-12 -var mostTime 0.15", {"not at rest", "mostTime"}}),
     [](const auto& one) { return one.param.name; });

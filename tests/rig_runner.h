@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Runs cases/shearbox and cases/repose through their own command lines, in their own folders, with coarse soft grains that
-// make a run of seconds.
+// Runs cases/shearbox and cases/repose through their own command lines, in their own folders, with coarse soft grains
+// that make a run of seconds.
 //   Rig rig("shearbox");                      // a temporary folder, removed at the end
 //   rig.must("a", coarse_shear);              // run folder a in it
 //   Table rows = rig.csv("a/shear.csv");

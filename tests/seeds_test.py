@@ -32,20 +32,35 @@ with tempfile.TemporaryDirectory(prefix="vielto-seeds-") as name:
     bad = subprocess.run([SEEDS, one, name / "none.csv", out], capture_output=True, text=True)
     assert bad.returncode == 2 and "none.csv: No such file" in bad.stderr and not out.exists(), bad
     # no table is made of what is no table of seeds; nothing half-written stays
-    cases = (("", "has no column test"), (HEAD, "holds no row"), (HEAD + "a_s1,fit,mixer,power,x,0.1,W\n", ":2: value is 'x'"),
-             (HEAD + "a_s1,fit,mixer,power,nan,0.1,W\n", ":2: value is 'nan'"), (HEAD + "a_s1,fit,mixer,power,1,0,W\n", ":2: u is '0'"),
-             (HEAD + "a_s1,fit,mixer\n", ":2: has not as many cells"),
-             (HEAD + 2 * "a_s1,fit,mixer,power,1,0.1,W\n", ":3: power of a_s1 is in"),
-             (HEAD.replace("unit", "unit,speed") + "a_s1,fit,mixer,power,1,0.1,W,1\na_s2,fit,mixer,power,1,0.1,W,1.58\n", ":3: speed is '1.58'"),
-             ("run,power_W\na,1\n", ":1: has no column test"))
+    cases = (
+        ("", "has no column test"),
+        (HEAD, "holds no row"),
+        (HEAD + "a_s1,fit,mixer,power,x,0.1,W\n", ":2: value is 'x'"),
+        (HEAD + "a_s1,fit,mixer,power,nan,0.1,W\n", ":2: value is 'nan'"),
+        (HEAD + "a_s1,fit,mixer,power,1,0,W\n", ":2: u is '0'"),
+        (HEAD + "a_s1,fit,mixer\n", ":2: has not as many cells"),
+        (HEAD + 2 * "a_s1,fit,mixer,power,1,0.1,W\n", ":3: power of a_s1 is in"),
+        (
+            HEAD.replace("unit", "unit,speed") + "a_s1,fit,mixer,power,1,0.1,W,1\na_s2,fit,mixer,power,1,0.1,W,1.58\n",
+            ":3: speed is '1.58'",
+        ),
+        ("run,power_W\na,1\n", ":1: has no column test"),
+    )
     for text, fault in cases:
         two.write_text(text)
         bad = subprocess.run([SEEDS, two, out], capture_output=True, text=True)
-        assert bad.returncode == 2 and fault in bad.stderr and bad.stderr.count("\n") == 1 and "; " in bad.stderr, (text, bad)
+        assert bad.returncode == 2 and fault in bad.stderr and bad.stderr.count("\n") == 1 and "; " in bad.stderr, (
+            text,
+            bad,
+        )
         assert not out.exists()
     two.write_bytes(bytes(range(256)))
-    for words, fault in (((two, out), "is no CSV table"), ((one, one, out), "is in"), ((one, name), "cannot be written"),
-                         ((one, name / "none" / "out.csv"), "cannot be written")):
+    for words, fault in (
+        ((two, out), "is no CSV table"),
+        ((one, one, out), "is in"),
+        ((one, name), "cannot be written"),
+        ((one, name / "none" / "out.csv"), "cannot be written"),
+    ):
         bad = subprocess.run([SEEDS, *words], capture_output=True, text=True)
         assert bad.returncode == 2 and fault in bad.stderr and bad.stderr.count("\n") == 1, bad
     two.write_text(HEAD.replace("unit", "unit,speed") + "b_s1,fit,mixer,power,1,0.1,W,1\n")

@@ -35,19 +35,32 @@ struct Synthetic {
 
   std::string text() const {
     std::string out;
-    const std::vector<std::pair<std::string, std::string>> keys = {
-        {"schema", "1"}, {"rig", "shearbox"}, {"normal_stress", "19620"}, {"shear_velocity", "0.05"},
-        {"plate_mass", "7.2"}, {"gravity", "9.81"}, {"area", "0.0036"}, {"seed", "1"}, {"material", "hulled_millet"},
-        {"wall", "steel"}, {"provisional", "1"}, {"density", "1375"}, {"grain_diameter", "0.003"},
-        {"youngs_modulus", "5e6"}, {"dt", "1e-6"}, {"dt_over_tc", "0.05"}, {"interval_steps", "10"}};
+    const std::vector<std::pair<std::string, std::string>> keys = {{"schema", "1"},
+                                                                   {"rig", "shearbox"},
+                                                                   {"normal_stress", "19620"},
+                                                                   {"shear_velocity", "0.05"},
+                                                                   {"plate_mass", "7.2"},
+                                                                   {"gravity", "9.81"},
+                                                                   {"area", "0.0036"},
+                                                                   {"seed", "1"},
+                                                                   {"material", "hulled_millet"},
+                                                                   {"wall", "steel"},
+                                                                   {"provisional", "1"},
+                                                                   {"density", "1375"},
+                                                                   {"grain_diameter", "0.003"},
+                                                                   {"youngs_modulus", "5e6"},
+                                                                   {"dt", "1e-6"},
+                                                                   {"dt_over_tc", "0.05"},
+                                                                   {"interval_steps", "10"}};
     for (const auto& [k, v] : keys)
       if (k != key)
         out += "# " + k + "=" + v + "\n";
       else if (!value.empty())
         out += "# " + k + "=" + value + "\n";
-    out += "step,time_s,displacement_m,lower_Fx_N,lower_Fy_N,lower_Fz_N,upper_Fx_N,upper_Fy_N,upper_Fz_N,plate_Fx_N,"
-           "plate_Fy_N,plate_Fz_N,plate_position_m,plate_velocity_m_s,dilation_m,porosity,overlap_mean,overlap_max,"
-           "contacts,grains,kinetic_J\n";
+    out +=
+        "step,time_s,displacement_m,lower_Fx_N,lower_Fy_N,lower_Fz_N,upper_Fx_N,upper_Fy_N,upper_Fz_N,plate_Fx_N,"
+        "plate_Fy_N,plate_Fz_N,plate_position_m,plate_velocity_m_s,dilation_m,porosity,overlap_mean,overlap_max,"
+        "contacts,grains,kinetic_J\n";
     std::mt19937_64 random(1);
     std::normal_distribution<double> normal;
     for (int i = 1; i <= rows; i++) {
@@ -88,8 +101,8 @@ bool warns(const ShearResult& result, const std::string& of) {
 
 }  // namespace
 
-// A block holds 50 rows: noise of a block mean 1 %/sqrt(50) = 0.14 %. The peak block lies within 0.2 mm of 1 mm; its mean is
-// below the peak by at most the mean over the block before it, peak (1 - 0.1).
+// A block holds 50 rows: noise of a block mean 1 %/sqrt(50) = 0.14 %. The peak block lies within 0.2 mm of 1 mm; its
+// mean is below the peak by at most the mean over the block before it, peak (1 - 0.1).
 TEST(ShearResult, FindsPeakAndSteadyPartOfAKnownCurve) {
   const ShearResult r = Synthetic().result();
   EXPECT_NEAR(r.steady.mean, 10000, 3 * r.steady.u);
@@ -108,7 +121,8 @@ TEST(ShearResult, TakesNormalStressAndPlateForceFromTheRows) {
   EXPECT_NEAR(r.plane_stress, (2.1 * 70.632 + 10) / 2 / area, 1e-3 * r.plane_stress);
   EXPECT_NEAR(r.plate_mean, 70.632, 0.005 * 70.632);
   EXPECT_NEAR(r.plate_fluctuation, 0.1, 0.001);  // whole periods but for a part of one
-  EXPECT_NEAR(r.plate_departure_row, 0.1 * std::sqrt(2.0) * std::cos(pi / 50), 1e-6);  // 50 rows a period, crest between two
+  EXPECT_NEAR(r.plate_departure_row, 0.1 * std::sqrt(2.0) * std::cos(pi / 50),
+              1e-6);                                          // 50 rows a period, crest between two
   EXPECT_LT(r.plate_departure_block, r.plate_departure_row);  // a period is one block long
   EXPECT_NEAR(r.dilation_end, 8e-4, 1e-9);
   EXPECT_NEAR(r.inertial_number, 0.05 / 10 * std::sqrt(1375 / 19620.0), 1e-3 * r.inertial_number);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// cases/shearbox from filling to run folder: balance of forces, what the columns say, seeds, resume, ranks, and the numbers
-// that `vielto post` makes of it.
+// cases/shearbox from filling to run folder: balance of forces, what the columns say, seeds, resume, ranks, and the
+// numbers that `vielto post` makes of it.
 #include <nlohmann/json.hpp>
 
 #include "rig_runner.h"
@@ -18,8 +18,8 @@ double mean(const Table& rows, const std::string& column, std::size_t first = 0)
 
 }  // namespace
 
-// Newton: over the run the halves, the plate and the grains' weight leave only the change of the grains' momentum, 0.7 N s
-// over 0.04 s at most if all of 0.09 kg went from rest to the shear velocity: 0.25 N.
+// Newton: over the run the halves, the plate and the grains' weight leave only the change of the grains' momentum, 0.7
+// N s over 0.04 s at most if all of 0.09 kg went from rest to the shear velocity: 0.25 N.
 TEST(ShearboxRun, BalancesForcesAndRecordsWhatItDid) {
   Rig rig("shearbox");
   rig.must("run", coarse_shear);
@@ -39,7 +39,7 @@ TEST(ShearboxRun, BalancesForcesAndRecordsWhatItDid) {
   weight = solids * 1375 * 9.81;
   EXPECT_GT(weight, 0.5);
   EXPECT_NEAR(mean(rows, "lower_Fz_N") + mean(rows, "upper_Fz_N") + mean(rows, "plate_Fz_N"), weight, momentum);
-  EXPECT_GT(mean(rows, "lower_Fx_N", 40), 1);       // the drive supplies
+  EXPECT_GT(mean(rows, "lower_Fx_N", 40), 1);         // the drive supplies
   EXPECT_NEAR(-mean(rows, "plate_Fz_N"), 7.06, 1.5);  // 1961 Pa on 36 cm2, and the plate's inertia
   for (std::size_t k = 0; k < 80; k++) {
     const double time = 5e-4 * static_cast<double>(k + 1);
@@ -66,18 +66,20 @@ TEST(ShearboxRun, IsDecidedByItsSeedAndSameWithTheStockProgram) {
   EXPECT_NE(rig.csv("a/shear.csv").at(0, "lower_Fx_N"), rig.csv("other/shear.csv").at(0, "lower_Fx_N"));
 }
 
-// A killed run taken up again: the same rows up to the restart, then the same to the last digits until the order of sums
-// has grown (tests/mixer_resume_test.cpp); two ranks alike.
+// A killed run taken up again: the same rows up to the restart, then the same to the last digits until the order of
+// sums has grown (tests/mixer_resume_test.cpp); two ranks alike.
 TEST(ShearboxResume, CarriesOnAKilledRunOnOneAndTwoRanks) {
   Rig rig("shearbox");
   const std::string restarts = "-var restartRows 20 ";
   rig.must("whole", coarse_shear, restarts);
   const std::string partial = (rig.folder / "broken.partial").string();
-  const Outcome killed = rig.shell(fmt::format(
-      "d='{}'; first() {{ ls $d/restart | sort -n | head -1 | cut -d. -f1; }}; last() {{ tail -n 1 $d/shear.csv | cut -d, "
-      "-f1; }}; {} & p=$!; until [ -n \"$(first)\" ] && [ $(last) -gt $(first) ]; do kill -0 $p || exit 99; sleep 0.02; "
-      "done 2>/dev/null; kill -9 $p; wait $p",
-      partial, rig.command_of("broken", coarse_shear, restarts)));
+  const Outcome killed =
+      rig.shell(fmt::format("d='{}'; first() {{ ls $d/restart | sort -n | head -1 | cut -d. -f1; }}; last() {{ tail -n "
+                            "1 $d/shear.csv | cut -d, "
+                            "-f1; }}; {} & p=$!; until [ -n \"$(first)\" ] && [ $(last) -gt $(first) ]; do kill -0 $p "
+                            "|| exit 99; sleep 0.02; "
+                            "done 2>/dev/null; kill -9 $p; wait $p",
+                            partial, rig.command_of("broken", coarse_shear, restarts)));
   ASSERT_EQ(killed.status, 128 + 9) << killed.text;
   fs::copy(partial, rig.folder / "two.partial", fs::copy_options::recursive);
   rig.must("broken", coarse_shear, restarts + "-var resume yes");
@@ -90,8 +92,8 @@ TEST(ShearboxResume, CarriesOnAKilledRunOnOneAndTwoRanks) {
   EXPECT_LT(difference(whole, two, 20, 24), 1e-7);
 }
 
-// A bed that was filled and loaded once is sheared again: the same record to the last digit, and at another velocity the
-// same bed at the start. A bed of other grain is refused.
+// A bed that was filled and loaded once is sheared again: the same record to the last digit, and at another velocity
+// the same bed at the start. A bed of other grain is refused.
 TEST(ShearboxRun, ShearsTheBedOfAnotherRun) {
   Rig rig("shearbox");
   rig.must("first", coarse_shear);
@@ -103,7 +105,8 @@ TEST(ShearboxRun, ShearsTheBedOfAnotherRun) {
   EXPECT_NEAR(slower.at(0, "porosity"), first.at(0, "porosity"), 1e-4);
   EXPECT_NEAR(slower.at(1, "displacement_m"), first.at(0, "displacement_m"), 1e-12);
   EXPECT_NE(rig.rig("other", coarse_shear, bed + "-var seed 2 ").text.find("cannot take the bed"), std::string::npos);
-  EXPECT_NE(rig.rig("no", coarse_shear, "-var bed nowhere ").text.find("cannot take the bed of nowhere"), std::string::npos);
+  EXPECT_NE(rig.rig("no", coarse_shear, "-var bed nowhere ").text.find("cannot take the bed of nowhere"),
+            std::string::npos);
 }
 
 // Slippery while it is filled, the grain lies closer than with the friction of its card.
@@ -156,7 +159,9 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"TimeStepOverLimit", "-var dtFraction 0.06", {"dtFraction is 0.06", "0.05"}},
         Refusal{"GrainTooLarge", "-var grainDiameter 0.007", {"grainDiameter is 0.007"}},
         Refusal{"BoxNarrowerThanItsGrains", "-var boxWidth 0.001", {"grainDiameter is 0.006", "0.001 m wide"}},
-        Refusal{"BoxLowerThanItsGrains", "-var boxHeight 0.02", {"grainDiameter is 0.006", "a fifth of its height (0.02 m)"}},
+        Refusal{"BoxLowerThanItsGrains",
+                "-var boxHeight 0.02",
+                {"grainDiameter is 0.006", "a fifth of its height (0.02 m)"}},
         Refusal{"HalvesWithoutAGap", "-var splitGap 0", {"vielto geometry", "failed"}},
         Refusal{"NoRoomForFilling", "-var freeboard 0", {"freeboard"}},
         Refusal{"RestartsWithinARow", "-var restartRows 0.4", {"restartRows is 0.4", "whole number"}},

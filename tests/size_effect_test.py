@@ -9,13 +9,18 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 
 
 def effect(table, *words):
-    return subprocess.run([ROOT / "workflow/size_effect", table, "--column", "angle_deg", *words], capture_output=True, text=True)
+    return subprocess.run(
+        [ROOT / "workflow/size_effect", table, "--column", "angle_deg", *words], capture_output=True, text=True
+    )
 
 
 with tempfile.TemporaryDirectory(prefix="vielto-size-") as name:
     table = pathlib.Path(name) / "numbers.csv"
     # 20 deg + 2500 deg/m d, seeds 0.5 deg to either side at each of two sizes
-    rows = [f"r{k},{d},{20 + 2500 * d + e}\n" for k, (d, e) in enumerate(((0.002, 0.5), (0.002, -0.5), (0.004, 0.5), (0.004, -0.5)))]
+    rows = [
+        f"r{k},{d},{20 + 2500 * d + e}\n"
+        for k, (d, e) in enumerate(((0.002, 0.5), (0.002, -0.5), (0.004, 0.5), (0.004, -0.5)))
+    ]
     table.write_text("run,grainDiameter,angle_deg\n" + "".join(rows))
     told = effect(table, "--real", "0.001", "--coarse", "0.004")
     assert told.returncode == 0, told.stderr
@@ -42,16 +47,21 @@ with tempfile.TemporaryDirectory(prefix="vielto-size-") as name:
     assert effect(table, "--real", "0.001", "--coarse", "0.004", "--runs", "r").stdout == told.stdout
     assert effect(table, "--real", "0.001", "--coarse", "0.004").stdout != told.stdout
 
-    for text, fault in (("run,grainDiameter,angle_deg\n" + "".join(rows[:2]), "three points or more, at two x or more"),
-                        ("run,grainDiameter\nr,0.002\n", ":1: has no column angle_deg"),
-                        ("run,grainDiameter,angle_deg\nr,0.002,x\n", ":2: angle_deg is 'x'"),
-                        ("run,grainDiameter,angle_deg\nr,0.002,nan\n", ":2: angle_deg is 'nan'"),
-                        ("run,grainDiameter,angle_deg\nr,0,30\n", ":2: grainDiameter is '0'; a finite number above 0"),
-                        ("run,grainDiameter,angle_deg\n" + 2 * rows[0], ":3: r"),
-                        ("run,grainDiameter,angle_deg\n", "holds no row"), ("", "has no column"),
-                        ("run,grainDiameter,angle_deg\nr,0.002\n", ":2: has not as many cells"),
-                        ("run,slicePaddles,grainDiameter,schema,angle_deg\na,4,0.004,1,30\nb,2,0.002,1,40\n",
-                         ":3: b has slicePaddles '2', a '4'; choose runs")):
+    for text, fault in (
+        ("run,grainDiameter,angle_deg\n" + "".join(rows[:2]), "three points or more, at two x or more"),
+        ("run,grainDiameter\nr,0.002\n", ":1: has no column angle_deg"),
+        ("run,grainDiameter,angle_deg\nr,0.002,x\n", ":2: angle_deg is 'x'"),
+        ("run,grainDiameter,angle_deg\nr,0.002,nan\n", ":2: angle_deg is 'nan'"),
+        ("run,grainDiameter,angle_deg\nr,0,30\n", ":2: grainDiameter is '0'; a finite number above 0"),
+        ("run,grainDiameter,angle_deg\n" + 2 * rows[0], ":3: r"),
+        ("run,grainDiameter,angle_deg\n", "holds no row"),
+        ("", "has no column"),
+        ("run,grainDiameter,angle_deg\nr,0.002\n", ":2: has not as many cells"),
+        (
+            "run,slicePaddles,grainDiameter,schema,angle_deg\na,4,0.004,1,30\nb,2,0.002,1,40\n",
+            ":3: b has slicePaddles '2', a '4'; choose runs",
+        ),
+    ):
         table.write_text(text)
         bad = effect(table, "--real", "0.001", "--coarse", "0.004")
         assert bad.returncode == 2 and fault in bad.stderr and bad.stderr.count("\n") == 1, bad
@@ -59,11 +69,18 @@ with tempfile.TemporaryDirectory(prefix="vielto-size-") as name:
     bad = effect(table, "--real", "0.001", "--coarse", "0.004")
     assert bad.returncode == 2 and "is no CSV table" in bad.stderr and bad.stderr.count("\n") == 1, bad
     table.write_text("run,grainDiameter,angle_deg\n" + "".join(rows))
-    for words, fault in ((("--real", "-1"), "--real -1: is no grain diameter"), (("--real", "nan"), "--real nan"),
-                         (("--real", "0.001", "--runs", "("), "is no regular expression"),
-                         (("--real", "0.001", "--picture", pathlib.Path(name) / "x.foo"), "a picture is .svg or .png"),
-                         (("--real", "0.001", "--picture", pathlib.Path(name) / "none/x.png"), "cannot be written")):
+    for words, fault in (
+        (("--real", "-1"), "--real -1: is no grain diameter"),
+        (("--real", "nan"), "--real nan"),
+        (("--real", "0.001", "--runs", "("), "is no regular expression"),
+        (("--real", "0.001", "--picture", pathlib.Path(name) / "x.foo"), "a picture is .svg or .png"),
+        (("--real", "0.001", "--picture", pathlib.Path(name) / "none/x.png"), "cannot be written"),
+    ):
         bad = effect(table, "--coarse", "0.004", *words)
-        assert bad.returncode == 2 and (fault in bad.stderr or "needs matplotlib" in bad.stderr) and bad.stderr.count("\n") == 1, bad
+        assert (
+            bad.returncode == 2
+            and (fault in bad.stderr or "needs matplotlib" in bad.stderr)
+            and bad.stderr.count("\n") == 1
+        ), bad
     bad = effect(pathlib.Path(name) / "none.csv", "--real", "0.001", "--coarse", "0.004")
     assert bad.returncode == 2 and "No such file" in bad.stderr, bad

@@ -14,17 +14,27 @@ HEADER = "run,seed,speed,fill,grainDiameter,drumSegments,shaftSegments,power_W\n
 
 
 def triangles(table, *words):
-    return subprocess.run([ROOT / "workflow/triangles", table, *words], capture_output=True, text=True,
-                          env=dict(os.environ, PATH=f"{sys.argv[1]}:{os.environ['PATH']}"))
+    return subprocess.run(
+        [ROOT / "workflow/triangles", table, *words],
+        capture_output=True,
+        text=True,
+        env=dict(os.environ, PATH=f"{sys.argv[1]}:{os.environ['PATH']}"),
+    )
 
 
 with tempfile.TemporaryDirectory(prefix="vielto-triangles-") as name:
     table = pathlib.Path(name) / "numbers.csv"
     # bench/run counted the triangles of its meshes by itself: 24, 48, 96 chords
-    counted = {t["triangles"]: t["median"] for t in json.loads((ROOT / "bench/results.json").read_text())["us_per_step_by_triangles"]}
+    counted = {
+        t["triangles"]: t["median"]
+        for t in json.loads((ROOT / "bench/results.json").read_text())["us_per_step_by_triangles"]
+    }
     meshes = dict(zip(((24, 12), (48, 24), (96, 48)), sorted(counted)))
-    rows = [f"m{d}_s{s},{s},0.85,0.15,0.012,{d},{h},{20 * t**0.1 * e!r}\n"
-            for (d, h), t in meshes.items() for s, e in ((1, 1.02), (2, 1 / 1.02))]
+    rows = [
+        f"m{d}_s{s},{s},0.85,0.15,0.012,{d},{h},{20 * t**0.1 * e!r}\n"
+        for (d, h), t in meshes.items()
+        for s, e in ((1, 1.02), (2, 1 / 1.02))
+    ]
     table.write_text(HEADER + "".join(rows))
     told = triangles(table)
     assert told.returncode == 0, told.stderr
@@ -52,11 +62,14 @@ with tempfile.TemporaryDirectory(prefix="vielto-triangles-") as name:
         assert "<svg" in picture.read_text() and out.read_text().splitlines() == lines[:4], drawn.stderr
     assert not list(pathlib.Path(name).glob("*.partial*"))
 
-    for text, fault in ((HEADER + "".join(rows[:4]), "needs three meshes"), (HEADER, "holds no row"),
-                        (HEADER + "".join(rows[:5]) + rows[5].replace("0.85", "1.58"), ":7: m96_s2 has speed '1.58'"),
-                        (HEADER + "".join(rows[:5]) + rows[5].replace(",96,48,", ",0,48,"), ":7: drumSegments is '0'"),
-                        (HEADER + "".join(rows).replace(",96,48,", ",361,48,"), "drumSegments"),
-                        (HEADER.replace("shaftSegments,", "") + rows[0], ":1: has no column shaftSegments")):
+    for text, fault in (
+        (HEADER + "".join(rows[:4]), "needs three meshes"),
+        (HEADER, "holds no row"),
+        (HEADER + "".join(rows[:5]) + rows[5].replace("0.85", "1.58"), ":7: m96_s2 has speed '1.58'"),
+        (HEADER + "".join(rows[:5]) + rows[5].replace(",96,48,", ",0,48,"), ":7: drumSegments is '0'"),
+        (HEADER + "".join(rows).replace(",96,48,", ",361,48,"), "drumSegments"),
+        (HEADER.replace("shaftSegments,", "") + rows[0], ":1: has no column shaftSegments"),
+    ):
         table.write_text(text)
         bad = triangles(table)
         assert bad.returncode == 2 and fault in bad.stderr and bad.stderr.count("\n") == 1, bad

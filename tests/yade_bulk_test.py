@@ -28,8 +28,12 @@ grain, wall = runs.yade_materials(case)
 m, R = case["material"], case["radius"]
 k = 8 / 3 * m["youngsModulus"] * R
 mass = case["density"] * 4 / 3 * numpy.pi * R**3
-for name, value in (("kn", k), ("ks", m["stiffnessRatio"] * k), ("cn", 2 * m["normalDamping"] * (k * mass)**0.5),
-                    ("cs", 2 * m["tangentialDamping"] * (m["stiffnessRatio"] * k * mass)**0.5)):
+for name, value in (
+    ("kn", k),
+    ("ks", m["stiffnessRatio"] * k),
+    ("cn", 2 * m["normalDamping"] * (k * mass) ** 0.5),
+    ("cs", 2 * m["tangentialDamping"] * (m["stiffnessRatio"] * k * mass) ** 0.5),
+):
     assert abs(grain[name] * wall[name] / (grain[name] + wall[name]) / value - 1) < 1e-12, name
 
 # Every side of the drum is covered by its triangle, seen from inside: the ray to any point of it meets the triangle.
@@ -43,9 +47,23 @@ with tempfile.TemporaryDirectory() as name:
     folder = pathlib.Path(name)
 
     def bulk(*words, tiny=True):
-        small = ["--set", "grains=30", "--set", "turns=0.15", "--set", "averagedFrom=0", "--set", "settleTime=0.05", "--seeds", "2"]
-        done = subprocess.run([ROOT / "yade/bulk", "--liggghts", sys.argv[1], "--out", folder, *(small if tiny else []), *words],
-                              capture_output=True, text=True)
+        small = [
+            "--set",
+            "grains=30",
+            "--set",
+            "turns=0.15",
+            "--set",
+            "averagedFrom=0",
+            "--set",
+            "settleTime=0.05",
+            "--seeds",
+            "2",
+        ]
+        done = subprocess.run(
+            [ROOT / "yade/bulk", "--liggghts", sys.argv[1], "--out", folder, *(small if tiny else []), *words],
+            capture_output=True,
+            text=True,
+        )
         return done.returncode, done.stdout, done.stderr
 
     status, out, err = bulk("--limit", "1000")
@@ -60,11 +78,17 @@ with tempfile.TemporaryDirectory() as name:
     assert status == 1 and "not shown to lie within" in err, err
     assert bulk("--limit", "1000", "--set", "speed=1.1")[1].count("seed ") == 4  # another case
 
-    for words, what in ((["--case", "/no/case"], "cannot be read"), (["--set", "cheese=1"], "no number 'cheese'"),
-                        (["--set", "grains=x"], "'x' is no number"), (["--set", "grains=0"], "above 0"),
-                        (["--set", "stepsPerRow=10"], "multiple of 8"), (["--seeds", "1"], "at least 2"),
-                        (["--set", "grains=99999"], "find no place"), (["--set", "averagedFrom=9"], "nothing would be averaged"),
-                        (["--liggghts", "/no/liggghts"], "no program")):
+    for words, what in (
+        (["--case", "/no/case"], "cannot be read"),
+        (["--set", "cheese=1"], "no number 'cheese'"),
+        (["--set", "grains=x"], "'x' is no number"),
+        (["--set", "grains=0"], "above 0"),
+        (["--set", "stepsPerRow=10"], "multiple of 8"),
+        (["--seeds", "1"], "at least 2"),
+        (["--set", "grains=99999"], "find no place"),
+        (["--set", "averagedFrom=9"], "nothing would be averaged"),
+        (["--liggghts", "/no/liggghts"], "no program"),
+    ):
         status, out, err = bulk(*words, tiny="find no place" == what)
         assert status == 2 and what in err and err.count("\n") == 1, (words, status, err)
 print("bulk: ok")

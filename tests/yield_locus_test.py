@@ -32,19 +32,26 @@ with tempfile.TemporaryDirectory(prefix="vielto-locus-") as name:
     assert f"{math.degrees(math.atan(0.8)):.2f} ±" in told.stdout and "100 ±" in told.stdout, told.stdout
 
     # runs that scatter by more than their u widen it: residuals of +-300 Pa about the line at one load
-    table.write_text(HEAD + "".join(f"q{k},shearbox,{s},{s},{200 + 0.6 * s + e},100,0,1\n"
-                                    for k, (s, e) in enumerate(((10000, 300), (10000, -300), (40000, 300), (40000, -300)))))
+    table.write_text(
+        HEAD
+        + "".join(
+            f"q{k},shearbox,{s},{s},{200 + 0.6 * s + e},100,0,1\n"
+            for k, (s, e) in enumerate(((10000, 300), (10000, -300), (40000, 300), (40000, -300)))
+        )
+    )
     told = locus(table)
     u_slope = 100 / math.sqrt(4 * 15000**2) * math.sqrt(4 * 9 / 2)
     assert "chi^2 / (n - 2)         18.00; u widened" in told.stdout, told.stdout
     assert f"± {math.degrees(u_slope / 1.36):.2f} deg" in told.stdout, told.stdout
 
-    for text, fault in ((HEAD + rows[0] + rows[1], "2 shear runs whose normal stresses are not apart"),
-                        (HEAD + "".join(rows[0].replace("p", str(k), 1) for k in range(3)), "not apart"),
-                        (HEAD + 3 * rows[0], ":3: p10000 is there twice"),
-                        (HEAD + rows[0].replace(",100,", ",x,"), ":2: shear_stress_steady_u_Pa is 'x'"),
-                        (HEAD + rows[0].replace(",11000.0,", ",inf,"), ":2: plane_normal_stress_Pa is 'inf'"),
-                        (HEAD + rows[0].replace(",100,", ",0,"), "a finite number above 0")):
+    for text, fault in (
+        (HEAD + rows[0] + rows[1], "2 shear runs whose normal stresses are not apart"),
+        (HEAD + "".join(rows[0].replace("p", str(k), 1) for k in range(3)), "not apart"),
+        (HEAD + 3 * rows[0], ":3: p10000 is there twice"),
+        (HEAD + rows[0].replace(",100,", ",x,"), ":2: shear_stress_steady_u_Pa is 'x'"),
+        (HEAD + rows[0].replace(",11000.0,", ",inf,"), ":2: plane_normal_stress_Pa is 'inf'"),
+        (HEAD + rows[0].replace(",100,", ",0,"), "a finite number above 0"),
+    ):
         table.write_text(text)
         bad = locus(table)
         assert bad.returncode == 2 and fault in bad.stderr and bad.stderr.count("\n") == 1, bad

@@ -22,8 +22,8 @@ struct Options {
 
 void check(const Options& o) {
   const Measure m = check_stl(o.check, o.closed);
-  fmt::print("{}: {} triangles, {} open edges, {} edges shared wrongly, smallest angle {:.2f} deg, area {:.6g} m2, ", o.check, m.triangles,
-             m.open_edges, m.crowded_edges, m.smallest_angle * 57.29577951308232, m.area);
+  fmt::print("{}: {} triangles, {} open edges, {} edges shared wrongly, smallest angle {:.2f} deg, area {:.6g} m2, ",
+             o.check, m.triangles, m.open_edges, m.crowded_edges, m.smallest_angle * 57.29577951308232, m.area);
   if (m.open_edges == 0 && m.crowded_edges == 0)
     fmt::print("volume {:.6g} m3 (normals {})\n", m.volume, m.volume > 0 ? "outward" : "inward");
   else
@@ -32,7 +32,8 @@ void check(const Options& o) {
 
 void make(const Options& o) {
   if (!o.picture.empty() && std::getenv("DISPLAY") == nullptr)
-    throw BadInput("--picture " + o.picture, 0, "cannot be drawn without a display", "run the command under 'xvfb-run -a'");
+    throw BadInput("--picture " + o.picture, 0, "cannot be drawn without a display",
+                   "run the command under 'xvfb-run -a'");
   ParFile file = ParFile::read(o.par_file);
   for (const std::string& setting : o.settings) {
     const auto equals = setting.find('=');
@@ -44,7 +45,8 @@ void make(const Options& o) {
   const RigGeometry geometry = rig_geometry(input);
   write_geometry(geometry, input, o.folder);
   if (!o.picture.empty()) write_picture(geometry, o.picture);
-  for (const Part& part : geometry.parts) fmt::print("{}/{}.stl: {} triangles\n", o.folder, part.name, part.triangles.size());
+  for (const Part& part : geometry.parts)
+    fmt::print("{}/{}.stl: {} triangles\n", o.folder, part.name, part.triangles.size());
   for (const std::string& note : geometry.notes) fmt::print("{}\n", note);
 }
 
@@ -52,14 +54,17 @@ void make(const Options& o) {
 
 void add_geometry_command(CLI::App& app) {
   auto options = std::make_shared<Options>();
-  CLI::App* command = app.add_subcommand("geometry", "meshes (STL) of a rig from its parameter file, or the check of one mesh");
-  CLI::Option* par = command->add_option("parfile", options->par_file, "the rig's parameter file, e.g. cases/mixer/mixer.par");
+  CLI::App* command =
+      app.add_subcommand("geometry", "meshes (STL) of a rig from its parameter file, or the check of one mesh");
+  CLI::Option* par =
+      command->add_option("parfile", options->par_file, "the rig's parameter file, e.g. cases/mixer/mixer.par");
   CLI::Option* out = command->add_option("--out", options->folder, "folder for the meshes and geometry.par");
   par->needs(out);
   out->needs(par);
   command->add_option("--set", options->settings, "NAME=VALUE in place of the file's value")->needs(par);
   command->add_option("--picture", options->picture, "also render a view into this PNG (needs a display)")->needs(par);
-  CLI::Option* check_option = command->add_option("--check", options->check, "measure this STL file instead")->excludes(par);
+  CLI::Option* check_option =
+      command->add_option("--check", options->check, "measure this STL file instead")->excludes(par);
   command->add_flag("--closed", options->closed, "with --check: the surface must be closed")->needs(check_option);
   command->callback([options] {
     if (!options->check.empty())

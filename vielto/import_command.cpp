@@ -79,9 +79,9 @@ SteadyTorque steady_torque(const ImportOptions& o, const std::string& path) {
   if (!(result.mean.mean > 0))
     throw BadInput(path, 0, o.columns.torque, fmt::format("has the mean {:.4g} N m", result.mean.mean),
                    "the drive supplies positive torque; turn the sign with --torque-factor -1");
-  fmt::print("{}: {} whole turns of {:.0f} samples, {} averaged from turn {} on; torque {:.6g} N m, u {:.2g} N m\n", path,
-             sampled.turns, sampled.samples_per_turn, result.turns.count, result.turns.first + 1, result.mean.mean,
-             result.mean.u);
+  fmt::print("{}: {} whole turns of {:.0f} samples, {} averaged from turn {} on; torque {:.6g} N m, u {:.2g} N m\n",
+             path, sampled.turns, sampled.samples_per_turn, result.turns.count, result.turns.first + 1,
+             result.mean.mean, result.mean.u);
   if (result.mean.effective_samples < kFewSamples)
     fmt::print("note: only {:.1f} effective samples, u is itself uncertain\n", result.mean.effective_samples);
   result.signal = sampled.signal;
@@ -128,7 +128,9 @@ void add_bed_rows(const ImportOptions& o, std::vector<Observation>& rows) {
   }
   const auto add = [&](const std::string& apparatus, const std::string& observable, const std::vector<Estimate>& all) {
     const Estimate e = over_time(all);
-    if (!(e.u > 0)) throw BadInput(o.bed[0], 0, observable + " has no scatter to take an uncertainty from", "choose a larger --window or --box");
+    if (!(e.u > 0))
+      throw BadInput(o.bed[0], 0, observable + " has no scatter to take an uncertainty from",
+                     "choose a larger --window or --box");
     rows.push_back(row_of(o, apparatus, observable, e.value, e.u));
   };
   if (!angles.empty()) add(o.angle_of, "angle", angles);
@@ -142,15 +144,20 @@ void check(const ImportOptions& o) {
   };
   if (o.torque.empty() && o.bed.empty()) refuse("imports nothing", "give --torque FILE, --bed FILE, or both");
   if (!o.torque.empty() && o.columns.torque.empty()) refuse("--torque has no column", "name it with --torque-column");
-  if (!o.torque.empty() && !(o.speed && *o.speed > 0)) refuse("--torque has no speed", "give --speed, in turns a second");
-  if (o.torque.empty() && (!o.idle.empty() || o.ripple)) refuse("--idle and --ripple have no torque", "give --torque FILE");
+  if (!o.torque.empty() && !(o.speed && *o.speed > 0))
+    refuse("--torque has no speed", "give --speed, in turns a second");
+  if (o.torque.empty() && (!o.idle.empty() || o.ripple))
+    refuse("--idle and --ripple have no torque", "give --torque FILE");
   if (!o.bed.empty() && o.angle_of.empty() && o.box.empty())
     refuse("--bed makes no observation", "give --angle drum or repose, or --box with --grain-density");
-  if (o.bed.empty() && (!o.angle_of.empty() || !o.box.empty())) refuse("--angle and --box have no bed", "give --bed FILE");
+  if (o.bed.empty() && (!o.angle_of.empty() || !o.box.empty()))
+    refuse("--angle and --box have no bed", "give --bed FILE");
   if (o.box.empty() != (o.grain_density == 0)) refuse("--box and --grain-density go together", "give both or neither");
   for (std::size_t d = 0; d < o.box.size(); d += 2)
-    if (!(o.box[d] < o.box[d + 1])) refuse("--box is turned inside out", "give it as x0 x1 y0 y1 z0 z1, each from low to high");
-  if (!o.window.empty() && !(o.window[0] < o.window[1])) refuse("--window is turned inside out", "give it from low to high");
+    if (!(o.box[d] < o.box[d + 1]))
+      refuse("--box is turned inside out", "give it as x0 x1 y0 y1 z0 z1, each from low to high");
+  if (!o.window.empty() && !(o.window[0] < o.window[1]))
+    refuse("--window is turned inside out", "give it from low to high");
   if (o.across == o.up) refuse("--across and --up are the same axis", "name two axes");
 }
 
@@ -163,8 +170,8 @@ void import_yade(const ImportOptions& o) {
   if (!o.bed.empty()) add_bed_rows(o, rows);
   write_observations(o.out, rows);
   for (std::size_t i = before; i < rows.size(); ++i)
-    fmt::print("{}: {} {} = {:.6g} {}, u {:.2g}\n", o.out, rows[i].test, rows[i].observable, rows[i].value, rows[i].unit,
-               rows[i].u);
+    fmt::print("{}: {} {} = {:.6g} {}, u {:.2g}\n", o.out, rows[i].test, rows[i].observable, rows[i].value,
+               rows[i].unit, rows[i].u);
 }
 
 }  // namespace
@@ -181,7 +188,9 @@ void add_import_command(CLI::App& app) {
   command->add_option("--out", o->out, "the observation table to write")->required();
   command->add_flag("--append", o->append, "keep the rows that it holds already");
   command->add_option("--test", o->test, "name of the test")->required();
-  command->add_option("--role", o->role, "role of the test")->check(CLI::IsMember({"fit", "check"}))->capture_default_str();
+  command->add_option("--role", o->role, "role of the test")
+      ->check(CLI::IsMember({"fit", "check"}))
+      ->capture_default_str();
   command->add_option("--speed", o->speed, "1/s, turns a second")->check(CLI::PositiveNumber);
   command->add_option("--fill", o->fill, "drum loading factor")->check(CLI::Range(0.0, 1.0));
   command->add_option("--moisture", o->moisture, "wet basis")->check(CLI::Range(0.0, 1.0));
@@ -190,7 +199,8 @@ void add_import_command(CLI::App& app) {
   command->add_option("--material", o->material, "name of the grain");
 
   command->add_option("--torque", o->torque, "text with the torque on the rotor against time")->group("Torque");
-  command->add_option("--idle", o->idle, "the same of the empty machine: rows power_loaded and power_idle")->group("Torque");
+  command->add_option("--idle", o->idle, "the same of the empty machine: rows power_loaded and power_idle")
+      ->group("Torque");
   command->add_option("--torque-column", o->columns.torque, "its column, as the file names it")->group("Torque");
   command->add_option("--time-column", o->columns.time, "column of the time")->capture_default_str()->group("Torque");
   command->add_option("--torque-factor", o->columns.torque_factor, "times the column is N m; -1 turns the sign")
@@ -200,16 +210,20 @@ void add_import_command(CLI::App& app) {
       ->check(CLI::PositiveNumber)
       ->capture_default_str()
       ->group("Torque");
-  command->add_option("--start", o->columns.start, "s, when the rotor began to turn (default: the first row)")->group("Torque");
+  command->add_option("--start", o->columns.start, "s, when the rotor began to turn (default: the first row)")
+      ->group("Torque");
   command->add_flag("--skip-nan", o->columns.skip_nan, "leave out rows without a torque (other plot.addData calls)")
       ->group("Torque");
   command->add_option("--turns", o->turns, "steady whole turns asked for")
       ->check(CLI::Range(kLeastAveragedTurns, 1000000))
       ->capture_default_str()
       ->group("Torque");
-  command->add_flag("--ripple", o->ripple, "also torque_ripple; only if the whole rotor was simulated")->group("Torque");
+  command->add_flag("--ripple", o->ripple, "also torque_ripple; only if the whole rotor was simulated")
+      ->group("Torque");
 
-  command->add_option("--bed", o->bed, ".vtu or .vtp of the spheres, or text with x y z r; several: snapshots in their order")
+  command
+      ->add_option("--bed", o->bed,
+                   ".vtu or .vtp of the spheres, or text with x y z r; several: snapshots in their order")
       ->group("Bed");
   command->add_option("--length-factor", o->length_factor, "times the file's lengths are m")
       ->check(CLI::PositiveNumber)
@@ -222,12 +236,17 @@ void add_import_command(CLI::App& app) {
       ->check(CLI::IsMember({"x", "y", "z"}))
       ->capture_default_str()
       ->group("Bed");
-  command->add_option("--up", o->up, "vertical axis")->check(CLI::IsMember({"x", "y", "z"}))->capture_default_str()->group("Bed");
+  command->add_option("--up", o->up, "vertical axis")
+      ->check(CLI::IsMember({"x", "y", "z"}))
+      ->capture_default_str()
+      ->group("Bed");
   command->add_option("--window", o->window, "m, from and to along --across (default: the middle half of the grains)")
       ->expected(2)
       ->group("Bed");
   command->add_option("--box", o->box, "m, x0 x1 y0 y1 z0 z1 inside the bed: bulk_density")->expected(6)->group("Bed");
-  command->add_option("--grain-density", o->grain_density, "kg/m3, for --box")->check(CLI::PositiveNumber)->group("Bed");
+  command->add_option("--grain-density", o->grain_density, "kg/m3, for --box")
+      ->check(CLI::PositiveNumber)
+      ->group("Bed");
   command->callback([o] { import_yade(*o); });
 }
 

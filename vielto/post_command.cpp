@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// vielto post RUN [--idle IDLERUN]: a run's record -> numbers with uncertainty, observation rows, pictures, in RUN/post.
+// vielto post RUN [--idle IDLERUN]: a run's record -> numbers with uncertainty, observation rows, pictures, in
+// RUN/post.
 #include <memory>
 #include <string>
 
@@ -44,9 +45,11 @@ fs::path record_path(const std::string& run) {
 
 void add_post_command(CLI::App& app) {
   auto options = std::make_shared<PostOptions>();
-  CLI::App* command = app.add_subcommand(
-      "post", "from a run's record: mixing power and its numbers, shear stress and friction, angle of repose or of a bed in a drum");
-  command->add_option("RUN", options->run, "run folder, or the record in it (torque.csv, shear.csv, heap.csv, bed_1.csv)")
+  CLI::App* command = app.add_subcommand("post",
+                                         "from a run's record: mixing power and its numbers, shear stress and "
+                                         "friction, angle of repose or of a bed in a drum");
+  command
+      ->add_option("RUN", options->run, "run folder, or the record in it (torque.csv, shear.csv, heap.csv, bed_1.csv)")
       ->required();
   command->add_option("--idle", options->idle, "run folder or torque.csv of the empty machine at the same speed");
   command->add_option("--turns", options->turns, "steady whole turns asked for")

@@ -10,6 +10,7 @@ def pyplot():
         raise ImportError("the picture needs matplotlib; install python3-matplotlib or leave --picture out")
     matplotlib.use("Agg")
     import matplotlib.pyplot
+
     return matplotlib.pyplot
 
 

@@ -44,7 +44,9 @@ def number(path, line, row, column, above=None):
     except (TypeError, ValueError):
         value = math.nan
     if not math.isfinite(value) or (above is not None and not value > above):
-        raise BadInput(f"{path}:{line}: {column} is '{row[column]}'; a finite number{'' if above is None else f' above {above:g}'} is needed")
+        raise BadInput(
+            f"{path}:{line}: {column} is '{row[column]}'; a finite number{'' if above is None else f' above {above:g}'} is needed"
+        )
     return value
 
 

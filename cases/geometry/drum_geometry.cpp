@@ -18,7 +18,8 @@ RigGeometry drum_geometry(GeometryInput& input) {
   const double chord = 2 * radius * std::sin(kPi / segments);
   const Surface mantle = sweep(circle, true, 0, length, strip_pieces(length, chord));
   // Two triangles do for an end: the corners lie outside the mantle, where no grain comes.
-  const Surface ends{plate(rectangle(2 * radius, 2 * radius), 0, true), plate(rectangle(2 * radius, 2 * radius), length, false)};
+  const Surface ends{plate(rectangle(2 * radius, 2 * radius), 0, true),
+                     plate(rectangle(2 * radius, 2 * radius), length, false)};
 
   Surface closed = mantle;
   append(closed, {plate(circle, 0, true), plate(circle, length, false)});

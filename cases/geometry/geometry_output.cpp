@@ -74,20 +74,24 @@ std::array<double, 3> colour(const std::string& kind) {
 }  // namespace
 
 std::string geometry_par(const RigGeometry& geometry, const GeometryInput& input) {
-  std::string text = "# Made by 'vielto geometry' together with the meshes beside it; include it in the LIGGGHTS script.\n";
+  std::string text =
+      "# Made by 'vielto geometry' together with the meshes beside it; include it in the LIGGGHTS script.\n";
   for (const auto& [name, value] : geometry.derived) text += fmt::format("variable {} index {}\n", name, value);
   text += "# The values the meshes were made with. A run with another value is stopped.\n";
   for (const GeometryInput::Used& used : input.used()) {
     text += fmt::format("variable {} index {}\n", used.name, used.value);
     std::string differs = fmt::format("${{{}}} != {}", used.name, used.value);
     if (used.is_text) {
-      text += fmt::format("variable {}_{} index 1\nvariable {}_${{{}}} index 0\n", used.name, used.value, used.name, used.name);
+      text += fmt::format("variable {}_{} index 1\nvariable {}_${{{}}} index 0\n", used.name, used.value, used.name,
+                          used.name);
       text += fmt::format("variable {}_same equal v_{}_${{{}}}\n", used.name, used.name, used.name);
       differs = fmt::format("${{{}_same}} == 0", used.name);
     }
     // no quotes around the words: LIGGGHTS does not substitute ${} in quoted text
-    text += fmt::format("if \"{}\" then \"vielto error {} is ${{{}}} but the mesh in this folder was made with {}; make it anew with "
-                        "vielto geometry or drop -var {}\"\n", differs, used.name, used.name, used.value, used.name);
+    text += fmt::format(
+        "if \"{}\" then \"vielto error {} is ${{{}}} but the mesh in this folder was made with {}; make it anew with "
+        "vielto geometry or drop -var {}\"\n",
+        differs, used.name, used.name, used.value, used.name);
   }
   return text;
 }

@@ -18,10 +18,10 @@ struct Mixer {
   double stem_width, stem_thickness, stem_overlap, shaft_radius;
   std::string handing;
   int drum_segments, shaft_segments;
-  bool periodic;   // a slice, else the whole drum
-  int paddles;     // in the mesh
-  double length;   // of the mesh along x
-  double pitch;    // axial distance of the paddles
+  bool periodic;  // a slice, else the whole drum
+  int paddles;    // in the mesh
+  double length;  // of the mesh along x
+  double pitch;   // axial distance of the paddles
   double tip() const { return drum_radius - clearance; }
 };
 
@@ -58,7 +58,8 @@ Mixer read_mixer(GeometryInput& input) {
   m.length = m.periodic ? slice * m.drum_length / paddle_count : m.drum_length;
   m.pitch = m.periodic ? m.length / slice : pitch_of_whole;
 
-  if (slice == 1) input.refuse("slicePaddles", "a paddle would overlap its own periodic image", "state 0, or 2 or more");
+  if (slice == 1)
+    input.refuse("slicePaddles", "a paddle would overlap its own periodic image", "state 0, or 2 or more");
   if (slice % 2 == 1 && m.handing != "uniform")
     input.refuse("slicePaddles", fmt::format("an odd number of paddles of handing '{}' does not repeat", m.handing),
                  "state an even slicePaddles, or paddleHanding uniform");
@@ -101,7 +102,8 @@ Rotor make_rotor(const Mixer& m) {
                               (stem_end - stem_start) / 2 * radial, m.stem_width / 2 * ahead));
   }
   const double chord = 2 * m.shaft_radius * std::sin(kPi / m.shaft_segments);
-  rotor.shaft = sweep(arc(m.shaft_radius, 0, 2 * kPi, m.shaft_segments), true, 0, m.length, strip_pieces(m.length, chord));
+  rotor.shaft =
+      sweep(arc(m.shaft_radius, 0, 2 * kPi, m.shaft_segments), true, 0, m.length, strip_pieces(m.length, chord));
   return rotor;
 }
 
@@ -130,7 +132,8 @@ Drum make_drum(const Mixer& m) {
   outline.insert(outline.end(), chords.rbegin(), chords.rend());  // clockwise: normals towards the grains
   outline.emplace_back(-m.drum_radius, m.drum_top);
   const int pieces = strip_pieces(m.length, 2 * m.drum_radius * std::sin(kPi / (2 * m.drum_segments)));
-  return {sweep(outline, false, 0, m.length, pieces), sweep({outline.back(), outline.front()}, false, 0, m.length, pieces),
+  return {sweep(outline, false, 0, m.length, pieces),
+          sweep({outline.back(), outline.front()}, false, 0, m.length, pieces),
           {plate(outline, 0, true), plate(outline, m.length, false)}};
 }
 
@@ -151,11 +154,13 @@ double end_gap(const Mixer& m, const Triangles& blades, const GeometryInput& inp
   const Measure extent = measure(blades);
   const double gap = std::min(extent.low.x(), m.length - extent.high.x());
   if (gap <= 0)
-    input.refuse("paddlePitch", fmt::format("the outer paddles pierce the end walls by {:.6f} m", -gap), "state a smaller paddlePitch");
+    input.refuse("paddlePitch", fmt::format("the outer paddles pierce the end walls by {:.6f} m", -gap),
+                 "state a smaller paddlePitch");
   return gap;
 }
 
-// Least distance between the drum's round wall and the body the rotor sweeps: every angle of the rotor passes every chord.
+// Least distance between the drum's round wall and the body the rotor sweeps: every angle of the rotor passes every
+// chord.
 double true_clearance(const Mixer& m, const Triangles& walls, double tip_radius, const GeometryInput& input) {
   double gap = INFINITY;
   for (const Triangle& t : walls) gap = std::min(gap, distance_from_axis(t) - tip_radius);
@@ -163,10 +168,13 @@ double true_clearance(const Mixer& m, const Triangles& walls, double tip_radius,
     const double ratio = tip_radius / m.drum_radius;
     const int enough = ratio < 1 ? static_cast<int>(std::floor(kPi / (2 * std::acos(ratio)))) + 1 : kMostSegments + 1;
     if (enough > kMostSegments)
-      input.refuse("clearance", fmt::format("the rotor's largest radius {:.6f} m leaves no room in the drum's {:.6f} m (a paddle's "
-                                            "corners stick out beyond its tip)", tip_radius, m.drum_radius),
+      input.refuse("clearance",
+                   fmt::format("the rotor's largest radius {:.6f} m leaves no room in the drum's {:.6f} m (a paddle's "
+                               "corners stick out beyond its tip)",
+                               tip_radius, m.drum_radius),
                    "state a larger clearance");
-    input.refuse("drumSegments", fmt::format("the chords eat up the clearance, the rotor would cut the drum by {:.6f} m", -gap),
+    input.refuse("drumSegments",
+                 fmt::format("the chords eat up the clearance, the rotor would cut the drum by {:.6f} m", -gap),
                  fmt::format("state {} drumSegments or more", enough));
   }
   return gap;
@@ -206,7 +214,8 @@ RigGeometry mixer_geometry(GeometryInput& input) {
   else
     g.parts.push_back({"paddle_1", "paddle", true, in_the_box(joined(rotor.paddles))});
 
-  const double volume = -measure(triangulate(joined({drum.walls, drum.lid, drum.ends}))).volume;  // the normals point inward
+  const double volume =
+      -measure(triangulate(joined({drum.walls, drum.lid, drum.ends}))).volume;  // the normals point inward
   const double outline = m.length * (kPi * m.drum_radius * m.drum_radius / 2 + 2 * m.drum_radius * m.drum_top);
   g.derived = {{"sliceLength", fmt::format("{:.12g}", m.length)},
                {"rotorTipRadius", fmt::format("{:.12g}", tip_radius)},
@@ -218,13 +227,16 @@ RigGeometry mixer_geometry(GeometryInput& input) {
                {"paddleMeshes", fmt::format("{}", m.periodic ? m.paddles : 1)},
                {"paddleAngles", fmt::format("\"{}\"", fmt::join(rotor.angles, " "))},
                {"meshedDrumVolume", fmt::format("{:.9g}", volume)}};
-  g.notes.push_back(fmt::format("drum {:.4f} dm3 in {} chords, outline {:.4f} dm3 ({:.4f} dm3 for the whole drum)", volume * 1e3,
-                                m.drum_segments, outline * 1e3, outline * 1e3 * m.drum_length / m.length));
-  g.notes.push_back(fmt::format("clearance {:.3f} mm stated (paddle tip), {:.3f} mm left between the swept rotor and the drum's mesh",
-                                m.clearance * 1e3, gap * 1e3));
+  g.notes.push_back(fmt::format("drum {:.4f} dm3 in {} chords, outline {:.4f} dm3 ({:.4f} dm3 for the whole drum)",
+                                volume * 1e3, m.drum_segments, outline * 1e3,
+                                outline * 1e3 * m.drum_length / m.length));
+  g.notes.push_back(
+      fmt::format("clearance {:.3f} mm stated (paddle tip), {:.3f} mm left between the swept rotor and the drum's mesh",
+                  m.clearance * 1e3, gap * 1e3));
   if (m.periodic && std::fabs(std::remainder(m.paddles * m.angle_step, 360.0)) > 1e-9)
-    g.notes.push_back(fmt::format("note: {} paddles at steps of {} deg do not close a turn, so the angular pattern repeats early",
-                                  m.paddles, m.angle_step));
+    g.notes.push_back(
+        fmt::format("note: {} paddles at steps of {} deg do not close a turn, so the angular pattern repeats early",
+                    m.paddles, m.angle_step));
   return g;
 }
 

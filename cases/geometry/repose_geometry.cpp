@@ -21,11 +21,13 @@ RigGeometry repose_geometry(GeometryInput& input) {
   const double chord = diameter * std::sin(kPi / segments);
   auto circle = arc(diameter / 2, 0, 2 * kPi, segments);
   std::reverse(circle.begin(), circle.end());  // normals inward
-  const auto outline = shape == "disc" ? arc(base_width / 2, 0, 2 * kPi, base_segments) : rectangle(base_width, base_width);
+  const auto outline =
+      shape == "disc" ? arc(base_width / 2, 0, 2 * kPi, base_segments) : rectangle(base_width, base_width);
 
   RigGeometry g;
-  g.parts = {{"base", "plate", false, triangulate(upright({plate(outline, 0, true)}))},
-             {"cylinder", "drum", true, triangulate(upright(sweep(circle, true, 0, height, strip_pieces(height, chord))))}};
+  g.parts = {
+      {"base", "plate", false, triangulate(upright({plate(outline, 0, true)}))},
+      {"cylinder", "drum", true, triangulate(upright(sweep(circle, true, 0, height, strip_pieces(height, chord))))}};
   g.derived = {{"cylinderRadius", fmt::format("{:.12g}", diameter / 2 * std::cos(kPi / segments))}};
   return g;
 }

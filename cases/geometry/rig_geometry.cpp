@@ -60,7 +60,8 @@ RigGeometry rig_geometry(GeometryInput& input) {
     triangles += part.triangles.size();
     const double angle = measure(part.triangles).smallest_angle * 180 / kPi;
     if (angle < 0.5)  // LIGGGHTS warns below 0.5 degrees and stops below 0.26
-      throw BadInput(input.path(), 0, fmt::format("the mesh '{}' has a triangle with an angle of {:.3f} deg", part.name, angle),
+      throw BadInput(input.path(), 0,
+                     fmt::format("the mesh '{}' has a triangle with an angle of {:.3f} deg", part.name, angle),
                      "use fewer chords, or change the lengths that leave a sliver");
   }
   geometry.derived.emplace_back("triangles", fmt::format("{}", triangles));

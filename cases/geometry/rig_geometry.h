@@ -12,7 +12,8 @@
 
 namespace vielto {
 
-// Reads parameters and remembers every one that was asked for, so that geometry.par can refuse a value that contradicts the mesh.
+// Reads parameters and remembers every one that was asked for, so that geometry.par can refuse a value that contradicts
+// the mesh.
 class GeometryInput {
  public:
   struct Used {
@@ -42,9 +43,9 @@ class GeometryInput {
 };
 
 struct Part {
-  std::string name;      // file NAME.stl
-  std::string kind;      // drum, shaft, stems, paddle, plate ...: the colour in pictures
-  bool moves = false;    // belongs to the rotor or is driven otherwise
+  std::string name;    // file NAME.stl
+  std::string kind;    // drum, shaft, stems, paddle, plate ...: the colour in pictures
+  bool moves = false;  // belongs to the rotor or is driven otherwise
   Triangles triangles;
 };
 
@@ -54,18 +55,21 @@ struct RigGeometry {
   std::vector<std::string> notes;                            // lines for the person at the terminal
 };
 
-// Mixer: shaft axis along x through y = z = 0, gravity -z, drum half circle below z = 0, open top at z = drumHeight - R.
-// Angles count from +y towards +z, positive rotation about +x; a positive inclination pushes the grains towards +x.
-// Parts: drum, shaft, stems, paddle_1 ... A slice (slicePaddles >= 2) is periodic in x, 0 <= x <= slicePaddles * drumLength /
-// paddleCount; slicePaddles = 0 is the whole drum with both end walls. The drum's chords are inscribed: its vertices lie on the circle.
+// Mixer: shaft axis along x through y = z = 0, gravity -z, drum half circle below z = 0, open top at z = drumHeight -
+// R. Angles count from +y towards +z, positive rotation about +x; a positive inclination pushes the grains towards +x.
+// Parts: drum, shaft, stems, paddle_1 ... A slice (slicePaddles >= 2) is periodic in x, 0 <= x <= slicePaddles *
+// drumLength / paddleCount; slicePaddles = 0 is the whole drum with both end walls. The drum's chords are inscribed:
+// its vertices lie on the circle.
 RigGeometry mixer_geometry(GeometryInput& input);
 
-// Direct shear box: split plane z = 0, shear along x, centre x = y = 0, normals towards the grains. The upper half stands splitGap
-// above the lower: were the side walls flush, a grain at the split would be counted by both meshes. Parts: lower, upper (each with
-// flanges of flangeLength at the split on both sides along x), plate (closed, normals outward) at the top of the upper half.
+// Direct shear box: split plane z = 0, shear along x, centre x = y = 0, normals towards the grains. The upper half
+// stands splitGap above the lower: were the side walls flush, a grain at the split would be counted by both meshes.
+// Parts: lower, upper (each with flanges of flangeLength at the split on both sides along x), plate (closed, normals
+// outward) at the top of the upper half.
 RigGeometry shearbox_geometry(GeometryInput& input);
 
-// Angle of repose by a lifted cylinder: base (square or disc, normal up) in z = 0, cylinder (open, normals inward) standing on it.
+// Angle of repose by a lifted cylinder: base (square or disc, normal up) in z = 0, cylinder (open, normals inward)
+// standing on it.
 RigGeometry repose_geometry(GeometryInput& input);
 
 // Rotating drum: axis along x, 0 <= x <= drumLength, normals inward; parts drum (mantle) and ends (squares around

@@ -29,13 +29,15 @@ RigGeometry shearbox_geometry(GeometryInput& input) {
 
   const double top = height - split + freeboard;
   const double plate_length = length - 2 * plate_gap, plate_width = width - 2 * plate_gap;
-  if (split >= height) input.refuse("splitHeight", "the split lies above the box", "state a splitHeight below boxHeight");
+  if (split >= height)
+    input.refuse("splitHeight", "the split lies above the box", "state a splitHeight below boxHeight");
   if (split_gap >= height - split)
     input.refuse("splitGap", "the gap is as high as the upper half", "state a splitGap well below a grain diameter");
   if (plate_length <= 0 || plate_width <= 0)
     input.refuse("plateGap", "no load plate is left between the gaps", "state a plateGap well below a grain diameter");
   if (plate_thickness >= top - split_gap)
-    input.refuse("plateThickness", "the load plate is thicker than the upper half is high", "state a thinner plate or more freeboard");
+    input.refuse("plateThickness", "the load plate is thicker than the upper half is high",
+                 "state a thinner plate or more freeboard");
 
   auto outline = rectangle(length, width);
   std::reverse(outline.begin(), outline.end());  // normals towards the grains

@@ -81,7 +81,8 @@ Triangles read_stl(const std::string& path) {
     data->GetCellPoints(i, n, ids);
     Triangle t;
     for (int k = 0; k < 3; ++k) t[k] = Point(data->GetPoint(ids[k]));
-    if (n != 3 || !((t[1] - t[0]).cross(t[2] - t[0]).norm() > 1e-16) || !t[0].allFinite() || !t[1].allFinite() || !t[2].allFinite())
+    if (n != 3 || !((t[1] - t[0]).cross(t[2] - t[0]).norm() > 1e-16) || !t[0].allFinite() || !t[1].allFinite() ||
+        !t[2].allFinite())
       throw BadInput(path, 0, fmt::format("triangle {} has no area", i + 1), kRemake);
     triangles.push_back(t);
   }
@@ -92,7 +93,9 @@ Triangles read_stl(const std::string& path) {
 Measure check_stl(const std::string& path, bool closed) {
   const Measure m = measure(read_stl(path));
   if (closed && (m.open_edges > 0 || m.crowded_edges > 0))
-    throw BadInput(path, 0, fmt::format("is not closed: {} open edges, {} edges shared wrongly", m.open_edges, m.crowded_edges), kRemake);
+    throw BadInput(path, 0,
+                   fmt::format("is not closed: {} open edges, {} edges shared wrongly", m.open_edges, m.crowded_edges),
+                   kRemake);
   return m;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// STL files: what LIGGGHTS reads. Written as text with 12 digits (a binary STL's 7 digits would part nodes that LIGGGHTS must
-// find equal within 1e-8 m).
+// STL files: what LIGGGHTS reads. Written as text with 12 digits (a binary STL's 7 digits would part nodes that
+// LIGGGHTS must find equal within 1e-8 m).
 #pragma once
 
 #include <string>

@@ -20,12 +20,10 @@ double smallest_angle(const Point& a, const Point& b, const Point& c) {
   return std::min({angle(a, b, c), angle(b, c, a), angle(c, a, b)});
 }
 
-bool before(const Point& a, const Point& b) {
-  return std::tie(a.x(), a.y(), a.z()) < std::tie(b.x(), b.y(), b.z());
-}
+bool before(const Point& a, const Point& b) { return std::tie(a.x(), a.y(), a.z()) < std::tie(b.x(), b.y(), b.z()); }
 
-// The part of a convex face with sign * (x - plane) >= 0. The cut point of an edge does not depend on the edge's direction,
-// so that neighbours stay joined to the last bit.
+// The part of a convex face with sign * (x - plane) >= 0. The cut point of an edge does not depend on the edge's
+// direction, so that neighbours stay joined to the last bit.
 Face cut(const Face& face, double plane, double sign) {
   Face kept;
   for (std::size_t i = 0; i < face.size(); ++i) {
@@ -72,7 +70,8 @@ Surface box(const Point& centre, const Point& u, const Point& v, const Point& w)
   };
   Surface faces{side(u, v, w), side(-u, w, v), side(v, w, u), side(-v, u, w), side(w, u, v), side(-w, v, u)};
   const auto area = [](const Face& f) { return (f[1] - f[0]).cross(f[3] - f[0]).norm(); };
-  std::stable_sort(faces.begin(), faces.end(), [&area](const Face& a, const Face& b) { return area(a) < 0.999 * area(b); });
+  std::stable_sort(faces.begin(), faces.end(),
+                   [&area](const Face& a, const Face& b) { return area(a) < 0.999 * area(b); });
   return faces;
 }
 
@@ -91,7 +90,9 @@ Surface sweep(const std::vector<Eigen::Vector2d>& line, bool closed, double x0, 
   return surface;
 }
 
-int strip_pieces(double length, double width) { return std::max(1, static_cast<int>(std::ceil(length / (40 * width)))); }
+int strip_pieces(double length, double width) {
+  return std::max(1, static_cast<int>(std::ceil(length / (40 * width))));
+}
 
 std::vector<Eigen::Vector2d> arc(double radius, double from, double angle, int segments) {
   const bool whole_turn = angle > 2 * kPi - 1e-12;
@@ -130,15 +131,16 @@ Face plate(std::vector<Eigen::Vector2d> outline, double x, bool up) {
 Surface wrap(const Surface& surface, double length) {
   Surface wrapped;
   for (Face face : surface) {
-    const auto [low, high] = std::minmax_element(
-        face.begin(), face.end(), [](const Point& a, const Point& b) { return a.x() < b.x(); });
+    const auto [low, high] =
+        std::minmax_element(face.begin(), face.end(), [](const Point& a, const Point& b) { return a.x() < b.x(); });
     const int first = static_cast<int>(std::floor((low->x() + kOnPlane) / length));
     const int last = static_cast<int>(std::ceil((high->x() - kOnPlane) / length));
     for (int period = first; period <= last; ++period) put_on_plane(face, period * length);
     for (int period = first; period < std::max(last, first + 1); ++period) {
       const double start = period * length, end = (period + 1) * length;
       Face piece = cut(cut(face, start, +1), end, -1);
-      if (piece.size() < 3 || (lies_in(piece, start) && !lies_in(face, start)) || (lies_in(piece, end) && !lies_in(face, end)))
+      if (piece.size() < 3 || (lies_in(piece, start) && !lies_in(face, start)) ||
+          (lies_in(piece, end) && !lies_in(face, end)))
         continue;
       for (Point& p : piece) p.x() = p.x() == start ? 0 : p.x() == end ? length : p.x() - start;
       wrapped.push_back(piece);
@@ -150,7 +152,8 @@ Surface wrap(const Surface& surface, double length) {
 Triangles triangulate(const Surface& surface) {
   Triangles triangles;
   for (const Face& face : surface) {
-    // best[i][j]: the largest possible smallest angle in the part between vertices i and j, and the vertex that gives it.
+    // best[i][j]: the largest possible smallest angle in the part between vertices i and j, and the vertex that gives
+    // it.
     const std::size_t n = face.size();
     std::vector<std::vector<double>> best(n, std::vector<double>(n, std::numeric_limits<double>::infinity()));
     std::vector<std::vector<std::size_t>> apex(n, std::vector<std::size_t>(n, 0));

@@ -30,7 +30,8 @@ Samples samples_of(const ColumnText& text, const TorqueColumns& c, double speed)
     if (std::isnan(value))
       throw BadInput(text.path, line, c.torque, "has no value (nan)",
                      "use --skip-nan if another plot.addData made this row");
-    if (!std::isfinite(t)) throw BadInput(text.path, line, c.time, "has no value (nan)", "save the time with the torque");
+    if (!std::isfinite(t))
+      throw BadInput(text.path, line, c.time, "has no value (nan)", "save the time with the torque");
     if (!start) start = t;
     const double turn = (t - *start) * speed;
     if (!samples.turn.empty()) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Torque samples at any times, from a script of one's own -> means over the phases of the turn, as a torque record holds
-// them (torque_record.h), so that the steady part and the uncertainty come from the same code.
+// Torque samples at any times, from a script of one's own -> means over the phases of the turn, as a torque record
+// holds them (torque_record.h), so that the steady part and the uncertainty come from the same code.
 //
 // Between samples the torque is taken as linear; the phase means are its exact means. Turns count from `start`; a last
 // turn that the samples do not cover whole is left out, no sample inside is.

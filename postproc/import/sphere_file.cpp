@@ -32,11 +32,13 @@ std::vector<Grain> read_vtk(const std::string& path) {
   reader->Update();
   vtkPointSet* points = reader->GetOutput();
   if (reader->GetErrorCode() != 0 || points->GetNumberOfPoints() == 0)
-    throw BadInput(path, 0, "holds no grains that can be read", "name a whole file that VTKRecorder wrote with 'spheres'");
+    throw BadInput(path, 0, "holds no grains that can be read",
+                   "name a whole file that VTKRecorder wrote with 'spheres'");
   vtkDataArray* radii = points->GetPointData()->GetArray("radii");
   if (!radii) radii = points->GetPointData()->GetArray("radius");
   if (!radii)
-    throw BadInput(path, 0, "has no array 'radii' at its points", "name the file of the spheres (NAME-spheres.STEP.vtu)");
+    throw BadInput(path, 0, "has no array 'radii' at its points",
+                   "name the file of the spheres (NAME-spheres.STEP.vtu)");
   std::vector<Grain> grains;
   for (vtkIdType i = 0; i < points->GetNumberOfPoints(); ++i) {
     Grain grain{};

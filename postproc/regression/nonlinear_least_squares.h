@@ -7,8 +7,8 @@
 // is the true covariance of the observations; multiplied by s^2 = chi2/(n - p) if V is known up to a factor only.
 //
 // Method: trust region (Ceres, dense QR) from the given start, by Levenberg-Marquardt and by dogleg, with two initial
-// radii each, then Gauss-Newton steps; the smallest chi2 is kept. The four runs differ in the valleys they can follow far
-// from the solution, near it they agree. The options are the same for every model.
+// radii each, then Gauss-Newton steps; the smallest chi2 is kept. The four runs differ in the valleys they can follow
+// far from the solution, near it they agree. The options are the same for every model.
 //
 // Source: Bates & Watts, Nonlinear Regression Analysis and Its Applications (Wiley, 1988): sections 2.1 (tangent
 // plane), 2.2.3 (relative offset).

@@ -117,10 +117,13 @@ void add_long_errors(const PowerStream& stream, PowerFit& fit) {
       const auto own = std::find(e.names.begin(), e.names.end(), a.name) - e.names.begin();
       constexpr double kSlack = 1e-3;
       if (std::fabs(x[own] - a.constant - a.weights.dot(x.tail(x.size() - 1))) > kSlack)
-        throw BadInput(fit.data.check.front().file, 0, fmt::format("holds rows of role check that need {} apart, which the fit does not determine", a.name),
-                       fmt::format("fit rows that tell it apart, or fix it (--fix {}=VALUE)", a.name));
+        throw BadInput(
+            fit.data.check.front().file, 0,
+            fmt::format("holds rows of role check that need {} apart, which the fit does not determine", a.name),
+            fmt::format("fit rows that tell it apart, or fix it (--fix {}=VALUE)", a.name));
     }
-    check.add(row.power, std::exp(x.dot(e.parameters)) * (e.number == PowerNumber::n_pc ? row.scale_n_pc : row.scale_n_p));
+    check.add(row.power,
+              std::exp(x.dot(e.parameters)) * (e.number == PowerNumber::n_pc ? row.scale_n_pc : row.scale_n_p));
   });
   fit.booklet_errors = booklet.errors();
   fit.check_errors = check.errors();
@@ -205,7 +208,8 @@ PowerFit fit_rows(const PowerFitRequest& request, PowerData all_rows, const Powe
   if (stream) {
     add_long_errors(*stream, fit);
     add_notes(fit);
-    if (fit.law.rows > n) fit.notes.push_back(fmt::format("residuals and their tables are of {} of the {} rows", n, fit.law.rows));
+    if (fit.law.rows > n)
+      fit.notes.push_back(fmt::format("residuals and their tables are of {} of the {} rows", n, fit.law.rows));
     return fit;
   }
 
@@ -234,9 +238,13 @@ PowerFit fit_rows(const PowerFitRequest& request, PowerData all_rows, const Powe
 
 }  // namespace
 
-PowerFit fit_power(const PowerFitRequest& request, PowerData data) { return fit_rows(request, std::move(data), nullptr); }
+PowerFit fit_power(const PowerFitRequest& request, PowerData data) {
+  return fit_rows(request, std::move(data), nullptr);
+}
 
-PowerFit fit_power(const PowerFitRequest& request, const PowerStream& stream) { return fit_rows(request, stream.sample, &stream); }
+PowerFit fit_power(const PowerFitRequest& request, const PowerStream& stream) {
+  return fit_rows(request, stream.sample, &stream);
+}
 
 std::optional<double> booklet_value(const PowerFit& fit, const Coefficient& c) {
   // The factor stands for the booklet's groups only.

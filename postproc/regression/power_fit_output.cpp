@@ -193,7 +193,8 @@ json power_fit_json(const PowerFit& fit) {
   if (!fit.data.check.empty()) result["check"] = errors_json(fit.check_errors);
   for (Eigen::Index i = 0; i < fit.check_power.size(); ++i) {
     const Observation& o = fit.data.check[static_cast<std::size_t>(i)].observation;
-    result["check_rows"].push_back({{"test", o.test}, {"power", o.value}, {"u", o.u}, {"predicted_power", fit.check_power[i]}});
+    result["check_rows"].push_back(
+        {{"test", o.test}, {"power", o.value}, {"u", o.u}, {"predicted_power", fit.check_power[i]}});
   }
   return result;
 }

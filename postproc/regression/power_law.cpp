@@ -161,8 +161,8 @@ struct Sums {
   }
 };
 
-// How a row enters the least squares at the logarithm `log_f` of its model value: whitened residual, and the factor that
-// makes a design row its whitened derivative.
+// How a row enters the least squares at the logarithm `log_f` of its model value: whitened residual, and the factor
+// that makes a design row its whitened derivative.
 struct WhitenedRow {
   double residual = 0, factor = 0;
 };
@@ -170,9 +170,12 @@ struct WhitenedRow {
 WhitenedRow whitened(Objective objective, double log_f, double y, double u) {
   const double f = std::exp(log_f);
   switch (objective) {
-    case Objective::log: return {(std::log(y) - log_f) * y / u, y / u};
-    case Objective::relative: return {1 - f / y, f / y};
-    case Objective::absolute: break;
+    case Objective::log:
+      return {(std::log(y) - log_f) * y / u, y / u};
+    case Objective::relative:
+      return {1 - f / y, f / y};
+    case Objective::absolute:
+      break;
   }
   return {(y - f) / u, f / u};
 }
@@ -180,8 +183,8 @@ WhitenedRow whitened(Objective objective, double log_f, double y, double u) {
 // All rows of a long table in the coordinates of the fit: offset and design row of a row's groups.
 class LongTable {
  public:
-  LongTable(const PowerLawProblem& problem, bool weighted, const Eigen::MatrixXd& to_design, const Eigen::VectorXd& means,
-            const Eigen::VectorXd& fixed)
+  LongTable(const PowerLawProblem& problem, bool weighted, const Eigen::MatrixXd& to_design,
+            const Eigen::VectorXd& means, const Eigen::VectorXd& fixed)
       : problem_(problem), weighted_(weighted), to_design_(to_design), means_(means), fixed_(fixed) {}
 
   // use(ln groups with a leading 1, design row, offset of ln f, y, u)
@@ -332,7 +335,8 @@ PowerLawFit fit_power_law(const PowerLawProblem& problem) {
   }
   if (!free_factor) fixed_part[0] = std::log(fixed_factor->second);
   for (Eigen::Index j = 0; j < k; ++j)
-    if (const auto fixed = problem.fixed.find(problem.names[j]); fixed != problem.fixed.end()) fixed_part[j + 1] = fixed->second;
+    if (const auto fixed = problem.fixed.find(problem.names[j]); fixed != problem.fixed.end())
+      fixed_part[j + 1] = fixed->second;
   const LongTable all(problem, weighted, to_design, means, fixed_part);
   if (problem.all_rows) {
     all.refine(solution);
@@ -340,10 +344,13 @@ PowerLawFit fit_power_law(const PowerLawProblem& problem) {
     all.for_each([&](const Eigen::VectorXd& logs, const Eigen::VectorXd&, double, double, double) {
       for (const auto& [column, weight] : aliasing.aliases) {
         double value = free_factor ? weight[0] : 0;
-        for (std::size_t j = 0; j < aliasing.kept.size(); ++j) value += weight[constants + static_cast<Eigen::Index>(j)] * logs[aliasing.kept[j] + 1];
+        for (std::size_t j = 0; j < aliasing.kept.size(); ++j)
+          value += weight[constants + static_cast<Eigen::Index>(j)] * logs[aliasing.kept[j] + 1];
         constexpr double kSlack = 1e-5;
         if (std::fabs(logs[column + 1] - value) > kSlack)
-          throw std::invalid_argument("few rows tell coefficients apart that a sample of the rows does not; give those rows a table of their own");
+          throw std::invalid_argument(
+              "few rows tell coefficients apart that a sample of the rows does not; give those rows a table of their "
+              "own");
       }
     });
   }
@@ -388,7 +395,8 @@ PowerLawFit fit_power_law(const PowerLawProblem& problem) {
   add_combinations(problem, fit);
 
   // A row fitted without itself; q = v - step.vj is what is left of its weight v.
-  const auto without = [&](double log_f, const Eigen::VectorXd& x, const Eigen::VectorXd& step, double q, double v, double vr) {
+  const auto without = [&](double log_f, const Eigen::VectorXd& x, const Eigen::VectorXd& step, double q, double v,
+                           double vr) {
     // A row that alone determines a coefficient is out of reach of the equation fitted without it.
     return q > 1e-12 * v ? std::exp(log_f - x.dot(step) * (vr / q)) : std::numeric_limits<double>::infinity();
   };

@@ -73,7 +73,8 @@ PowerStream::PowerStream(const std::vector<std::string>& tables, const std::vect
       for (const PowerRow& row : data.check) add(row);
       any_fit = any_fit || !data.fit.empty();
       for (const std::string& note : data.notes)
-        if (std::find(sample.notes.begin(), sample.notes.end(), note) == sample.notes.end()) sample.notes.push_back(note);
+        if (std::find(sample.notes.begin(), sample.notes.end(), note) == sample.notes.end())
+          sample.notes.push_back(note);
       any = true;
       chunk.rows.clear();
       chunk.lines.clear();
@@ -87,20 +88,25 @@ PowerStream::PowerStream(const std::vector<std::string>& tables, const std::vect
       names.insert(name);
       // One card stands for a material of another name only while there is but one material.
       if (names.size() > 1 && unknown)
-        throw BadInput(tables[t], unknown->line, "material", fmt::format("no card of '{}' is given", unknown->row.material),
+        throw BadInput(tables[t], unknown->line, "material",
+                       fmt::format("no card of '{}' is given", unknown->row.material),
                        "add --material with the card of that name");
       chunk.rows.push_back(power->row);
       chunk.lines.push_back(power->line);
       if (chunk.rows.size() == kChunk) flush();
     });
     flush();
-    if (!any) throw BadInput(tables[t], 0, "holds no mixer power", "add rows of power, or of power_loaded and power_idle");
+    if (!any)
+      throw BadInput(tables[t], 0, "holds no mixer power", "add rows of power, or of power_loaded and power_idle");
   }
   if (!any_fit) throw BadInput(tables.front(), 0, "holds no power row of role fit", "give role fit to the rows to use");
-  if (std::fflush(file_.get()) != 0) throw std::runtime_error("the temporary file cannot be written; check the space left");
+  if (std::fflush(file_.get()) != 0)
+    throw std::runtime_error("the temporary file cannot be written; check the space left");
   const auto n = static_cast<int>(sample.fit.size());
   sample.covariance.resize(n, n);
-  for (int i = 0; i < n; ++i) sample.covariance.insert(i, i) = sample.fit[static_cast<std::size_t>(i)].observation.u * sample.fit[static_cast<std::size_t>(i)].observation.u;
+  for (int i = 0; i < n; ++i)
+    sample.covariance.insert(i, i) =
+        sample.fit[static_cast<std::size_t>(i)].observation.u * sample.fit[static_cast<std::size_t>(i)].observation.u;
   sample.covariance.makeCompressed();
 }
 
@@ -111,11 +117,14 @@ void PowerStream::add(const PowerRow& row) {
   out.power = row.observation.value;
   out.u = row.observation.u;
   const double speed = *row.observation.speed;
-  out.booklet = thesis_power(*row.observation.fill, row.mixer.lever, speed, *row.material.bulk_density, *row.material.bulk_cohesion);
+  out.booklet = thesis_power(*row.observation.fill, row.mixer.lever, speed, *row.material.bulk_density,
+                             *row.material.bulk_cohesion);
   out.scale_n_pc = power_scale(PowerNumber::n_pc, speed, row.mixer, row.material);
   out.scale_n_p = power_scale(PowerNumber::n_p, speed, row.mixer, row.material);
-  for (int g = 0; g < kGroupCount; ++g) out.groups[g] = row.groups[g].value_or(std::numeric_limits<double>::quiet_NaN());
-  if (std::fwrite(&out, sizeof out, 1, file_.get()) != 1) throw std::runtime_error("the temporary file cannot be written; check the space left");
+  for (int g = 0; g < kGroupCount; ++g)
+    out.groups[g] = row.groups[g].value_or(std::numeric_limits<double>::quiet_NaN());
+  if (std::fwrite(&out, sizeof out, 1, file_.get()) != 1)
+    throw std::runtime_error("the temporary file cannot be written; check the space left");
 
   auto& kept = check ? sample.check : sample.fit;
   if (check) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Purpose: the mixer powers of observation tables of any length, in bounded memory: read once, checked as any table, and
-// kept as numbers in a temporary file (112 bytes a row) that every pass of a fit reads again. A sample of the rows stays
-// in memory.
+// Purpose: the mixer powers of observation tables of any length, in bounded memory: read once, checked as any table,
+// and kept as numbers in a temporary file (112 bytes a row) that every pass of a fit reads again. A sample of the rows
+// stays in memory.
 #pragma once
 
 #include <array>
@@ -24,10 +24,10 @@ bool are_long(const std::vector<std::string>& tables);
 class PowerStream {
  public:
   struct Row {
-    double check = 0;  // 1: of role `check`
-    double power = 0, u = 0, booklet = 0;        // W; booklet: power after its equation
-    double scale_n_pc = 0, scale_n_p = 0;        // power over N_PC and N_P, W
-    std::array<double, kGroupCount> groups{};    // not a number where it is not known
+    double check = 0;                          // 1: of role `check`
+    double power = 0, u = 0, booklet = 0;      // W; booklet: power after its equation
+    double scale_n_pc = 0, scale_n_p = 0;      // power over N_PC and N_P, W
+    std::array<double, kGroupCount> groups{};  // not a number where it is not known
   };
 
   // Errors: BadInput as of power_data and for_each_test.

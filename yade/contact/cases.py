@@ -50,5 +50,8 @@ def read(path, names):
     for name in names or []:
         if name not in known:
             raise BadInput(f"no case {name!r} in {path}; the cases are {', '.join(known)}")
-    return book, [filled(book, c, f"{path}: case {c.get('name', '?')}") for c in book["cases"]
-                  if not names or c.get("name", "?") in names]
+    return book, [
+        filled(book, c, f"{path}: case {c.get('name', '?')}")
+        for c in book["cases"]
+        if not names or c.get("name", "?") in names
+    ]

@@ -10,7 +10,7 @@ QUANTITIES = {"displacement": "m", "velocity": "m/s", "spin": "rad/s", "force": 
 def parts(states):
     """Arrays [time, sphere, 3] of each quantity. Without t = 0: there a force is what the engine's start makes of it."""
     x = states[:, :, 0:3] - states[:1, :, 0:3]
-    rest = [states[:, :, k:k + 3] for k in (3, 6, 9, 12)]
+    rest = [states[:, :, k : k + 3] for k in (3, 6, 9, 12)]
     return {name: a[1:] for name, a in zip(QUANTITIES, [x] + rest)}
 
 
@@ -45,7 +45,18 @@ def compare(ours, theirs):
         gone = largest(end_a - end_b)
         step = largest(a[-1][name] - end_a)
         ratio = (lambda d: d / scale) if scale else (lambda d: 0.0)
-        rows.append({"quantity": name, "unit": unit, "largest": scale, "difference": gone, "relative": ratio(gone),
-                     "relative_same_step": ratio(apart[-1]), "step_error": ratio(step), "observed_order": p, "order": order,
-                     "difference_order": order_of(apart[-2], apart[-1], scale)})
+        rows.append(
+            {
+                "quantity": name,
+                "unit": unit,
+                "largest": scale,
+                "difference": gone,
+                "relative": ratio(gone),
+                "relative_same_step": ratio(apart[-1]),
+                "step_error": ratio(step),
+                "observed_order": p,
+                "order": order,
+                "difference_order": order_of(apart[-2], apart[-1], scale),
+            }
+        )
     return rows

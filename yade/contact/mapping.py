@@ -6,10 +6,28 @@ The formulas are those of the table in yade/README.md, written from the thesis's
 import math
 
 PROPERTIES = {
-    "vielto": ["youngsModulus", "stiffnessRatio", "frictionAngle", "normalDamping", "tangentialDamping",
-               "rollingStiffnessFactor", "twistingStiffnessFactor", "rollingResistance", "twistingResistance"],
-    "cohfrict": ["youngsModulus", "stiffnessRatio", "frictionAngle", "alphaKr", "alphaKtw", "etaRoll", "etaTwist",
-                 "normalCohesion", "shearCohesion"],
+    "vielto": [
+        "youngsModulus",
+        "stiffnessRatio",
+        "frictionAngle",
+        "normalDamping",
+        "tangentialDamping",
+        "rollingStiffnessFactor",
+        "twistingStiffnessFactor",
+        "rollingResistance",
+        "twistingResistance",
+    ],
+    "cohfrict": [
+        "youngsModulus",
+        "stiffnessRatio",
+        "frictionAngle",
+        "alphaKr",
+        "alphaKtw",
+        "etaRoll",
+        "etaTwist",
+        "normalCohesion",
+        "shearCohesion",
+    ],
 }
 SETTINGS = {
     "vielto": ["springFactor", "limitForce", "slidingDashpot", "radiusLever", "rollingDashpot"],
@@ -64,9 +82,16 @@ def yade_materials(case):
     """Keyword arguments of Yade's material for body 1 and body 2."""
     if case["model"] == "cohfrict":  # the same law: the same numbers, and Yade mixes them
         same = ("alphaKr", "alphaKtw", "etaRoll", "etaTwist", "normalCohesion", "shearCohesion")
-        return [dict({name: m[name] for name in same}, density=case["density"], young=m["youngsModulus"],
-                     poisson=m["stiffnessRatio"], frictionAngle=math.radians(m["frictionAngle"]))
-                for m in case["materials"]]
+        return [
+            dict(
+                {name: m[name] for name in same},
+                density=case["density"],
+                young=m["youngsModulus"],
+                poisson=m["stiffnessRatio"],
+                frictionAngle=math.radians(m["frictionAngle"]),
+            )
+            for m in case["materials"]
+        ]
     c = Contact(case)
     common = {"density": case["density"], "frictionAngle": c.frictionAngle}  # Yade takes the smaller of the two
     if case["law"] == "ViscEl":
@@ -75,10 +100,18 @@ def yade_materials(case):
         return [one, one]
     cn = case["springFactor"]
     betaKr = harmonic(*(m["rollingStiffnessFactor"] for m in case["materials"]))
-    return [dict(common, young=2 * cn * m["youngsModulus"], poisson=m["stiffnessRatio"] / cn,
-                 alphaKr=betaKr * c.kn / c.ks, alphaKtw=m["twistingStiffnessFactor"],
-                 etaRoll=c.rolling * c.length / R, etaTwist=c.twisting * c.length / R)
-            for m, R in zip(case["materials"], (c.R1, c.R2))]
+    return [
+        dict(
+            common,
+            young=2 * cn * m["youngsModulus"],
+            poisson=m["stiffnessRatio"] / cn,
+            alphaKr=betaKr * c.kn / c.ks,
+            alphaKtw=m["twistingStiffnessFactor"],
+            etaRoll=c.rolling * c.length / R,
+            etaTwist=c.twisting * c.length / R,
+        )
+        for m, R in zip(case["materials"], (c.R1, c.R2))
+    ]
 
 
 def start(case):
@@ -91,6 +124,13 @@ def start(case):
     spheres = []
     for i, s in enumerate(case["spheres"]):
         x = [0.0, 0.0, c.R1 - overlap] if case.get("wall") else [[c.R1 + c.R2 - overlap, 0.0, 0.0], [0.0] * 3][i]
-        spheres.append({"radius": s["radius"], "x": x, "v": s.get("v", [0, 0, 0]), "w": s.get("w", [0, 0, 0]),
-                        "force": [(-1 if i == 0 else 1) * case.get("force", 0), 0, 0]})
+        spheres.append(
+            {
+                "radius": s["radius"],
+                "x": x,
+                "v": s.get("v", [0, 0, 0]),
+                "w": s.get("w", [0, 0, 0]),
+                "force": [(-1 if i == 0 else 1) * case.get("force", 0), 0, 0],
+            }
+        )
     return spheres

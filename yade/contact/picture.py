@@ -5,12 +5,14 @@ import numpy
 
 def draw(path, answer):
     import matplotlib
+
     matplotlib.use("Agg")
     from matplotlib import pyplot
+
     columns = 4
     rows = -(-len(answer) // columns)
     figure, panels = pyplot.subplots(rows, columns, figsize=(4 * columns, 2.5 * rows), squeeze=False)
-    for panel in panels.flat[len(answer):]:
+    for panel in panels.flat[len(answer) :]:
         panel.axis("off")
     for panel, a in zip(panels.flat, answer):
         time = numpy.linspace(0, 1, len(a["ours"])) * 1e3 * a["case"]["end"]

@@ -10,12 +10,20 @@ import json
 import sys
 
 LAWS = {
-    "ViscEl": (ViscElMat, {}, [Ig2_Sphere_Sphere_ScGeom, Ig2_Box_Sphere_ScGeom, Ig2_Facet_Sphere_ScGeom],
-               lambda bond: Ip2_ViscElMat_ViscElMat_ViscElPhys(), lambda: Law2_ScGeom_ViscElPhys_Basic()),
-    "CohFrict": (CohFrictMat, {"momentRotationLaw": True},
-                 [Ig2_Sphere_Sphere_ScGeom6D, Ig2_Box_Sphere_ScGeom6D, Ig2_Facet_Sphere_ScGeom6D],
-                 lambda bond: Ip2_CohFrictMat_CohFrictMat_CohFrictPhys(setCohesionOnNewContacts=bond),
-                 lambda: Law2_ScGeom6D_CohFrictPhys_CohesionMoment(always_use_moment_law=True, useIncrementalForm=True)),
+    "ViscEl": (
+        ViscElMat,
+        {},
+        [Ig2_Sphere_Sphere_ScGeom, Ig2_Box_Sphere_ScGeom, Ig2_Facet_Sphere_ScGeom],
+        lambda bond: Ip2_ViscElMat_ViscElMat_ViscElPhys(),
+        lambda: Law2_ScGeom_ViscElPhys_Basic(),
+    ),
+    "CohFrict": (
+        CohFrictMat,
+        {"momentRotationLaw": True},
+        [Ig2_Sphere_Sphere_ScGeom6D, Ig2_Box_Sphere_ScGeom6D, Ig2_Facet_Sphere_ScGeom6D],
+        lambda bond: Ip2_CohFrictMat_CohFrictMat_CohFrictPhys(setCohesionOnNewContacts=bond),
+        lambda: Law2_ScGeom6D_CohFrictPhys_CohesionMoment(always_use_moment_law=True, useIncrementalForm=True),
+    ),
 }
 
 
@@ -33,13 +41,18 @@ def scene(run):
     if run["wall"] == "box":
         O.bodies.append(utils.box((0, 0, -size), (size, size, size), fixed=True, material=1))
     if run["wall"] == "facet":  # one triangle: on the edge of two, forces would count twice
-        O.bodies.append(utils.facet([(-size, -size, 0), (2 * size, -size, 0), (-size, 2 * size, 0)], fixed=True, material=1))
+        O.bodies.append(
+            utils.facet([(-size, -size, 0), (2 * size, -size, 0), (-size, 2 * size, 0)], fixed=True, material=1)
+        )
     sphere_sphere, box_sphere, facet_sphere = geometry
     O.engines = [
         ForceResetter(),
         InsertionSortCollider([Bo1_Sphere_Aabb(), Bo1_Box_Aabb(), Bo1_Facet_Aabb()]),
-        InteractionLoop([sphere_sphere(avoidGranularRatcheting=run["avoidRatcheting"]), box_sphere(), facet_sphere()],
-                        [physics(run["bond"])], [law()]),
+        InteractionLoop(
+            [sphere_sphere(avoidGranularRatcheting=run["avoidRatcheting"]), box_sphere(), facet_sphere()],
+            [physics(run["bond"])],
+            [law()],
+        ),
         NewtonIntegrator(damping=0, gravity=Vector3(run["gravity"])),
     ]
     return ids
@@ -73,12 +86,22 @@ def simulate(run):
         s.pos += dt * s.vel
     O.dt = dt
     for n in range(1, run["steps"] + 1):
-        x, v, w = [Vector3(s.pos) for s in states], [Vector3(s.vel) for s in states], [Vector3(s.angVel) for s in states]
+        x, v, w = (
+            [Vector3(s.pos) for s in states],
+            [Vector3(s.vel) for s in states],
+            [Vector3(s.angVel) for s in states],
+        )
         O.step()
         if n % run["every"] == 0:
             F, T = forces()
-            write(n * dt, x, [0.5 * (a + s.vel) for a, s in zip(v, states)],
-                  [0.5 * (a + s.angVel) for a, s in zip(w, states)], F, T)
+            write(
+                n * dt,
+                x,
+                [0.5 * (a + s.vel) for a, s in zip(v, states)],
+                [0.5 * (a + s.angVel) for a, s in zip(w, states)],
+                F,
+                T,
+            )
     out.close()
 
 

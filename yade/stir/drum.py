@@ -51,7 +51,7 @@ def inside(case, places, room):
     angles = 2 * math.pi * numpy.arange(d["sides"]) / d["sides"]
     # outward normals of the sides: (0, 0, -1) turned about x
     outward = places[:, 1:2] * numpy.sin(angles) - places[:, 2:3] * numpy.cos(angles)
-    return ((places[:, 0] >= room) & (places[:, 0] <= d["length"] - room) & (outward.max(axis=1) <= d["radius"] - room))
+    return (places[:, 0] >= room) & (places[:, 0] <= d["length"] - room) & (outward.max(axis=1) <= d["radius"] - room)
 
 
 def off_blades(case, places, room):
@@ -77,6 +77,6 @@ def random_grains(case, seed):
         for p in tried:
             if len(grains) == case["grains"]:
                 return grains
-            if not len(grains) or ((grains - p)**2).sum(axis=1).min() > (2.01 * R)**2:
+            if not len(grains) or ((grains - p) ** 2).sum(axis=1).min() > (2.01 * R) ** 2:
                 grains = numpy.vstack([grains, p])
     return None

@@ -24,8 +24,13 @@ def time_step(case):
 def contact(case, wall):
     """The contact of two grains, or of a grain and a facet, in the words of the two-body cases."""
     full = dict(dict.fromkeys(mapping.PROPERTIES["vielto"], 0), **case["material"])
-    two = {"model": "vielto", "springFactor": 1, "density": case["density"], "materials": [full, full],
-           "spheres": [{"radius": case["radius"]}] * (1 if wall else 2)}
+    two = {
+        "model": "vielto",
+        "springFactor": 1,
+        "density": case["density"],
+        "materials": [full, full],
+        "spheres": [{"radius": case["radius"]}] * (1 if wall else 2),
+    }
     return mapping.Contact(dict(two, wall="facet") if wall else two)
 
 
@@ -48,17 +53,30 @@ def meshes(case, folder):
 def liggghts_files(case, folder, grains, turning):
     """case.par, properties and grains.data for in.drum."""
     full = dict(dict.fromkeys(mapping.PROPERTIES["vielto"], 0), **case["material"])
-    (folder / "properties").write_text("".join(
-        f"fix {name} all property/global {name} peratomtype {value!r} {value!r}\n" for name, value in full.items()))
+    (folder / "properties").write_text(
+        "".join(
+            f"fix {name} all property/global {name} peratomtype {value!r} {value!r}\n" for name, value in full.items()
+        )
+    )
     rows = round(case["turns"] * case["rowsPerTurn"])
     steps = rows * case["stepsPerRow"] if turning else round(case["settleTime"] / time_step(case))
-    values = {"dt": repr(time_step(case)), "steps": steps, "stepsPerRow": case["stepsPerRow"], "turning": int(turning),
-              "speed": case["speed"], "skin": 0.5 * case["radius"], "g": case["gravity"], "settings": f'"{SETTINGS}"'}
+    values = {
+        "dt": repr(time_step(case)),
+        "steps": steps,
+        "stepsPerRow": case["stepsPerRow"],
+        "turning": int(turning),
+        "speed": case["speed"],
+        "skin": 0.5 * case["radius"],
+        "g": case["gravity"],
+        "settings": f'"{SETTINGS}"',
+    }
     (folder / "case.par").write_text("".join(f"variable {k} index {v}\n" for k, v in values.items()))
     half = 3 * case["drum"]["radius"]
     box = "".join(f"{-half} {half} {a}lo {a}hi\n" for a in "xyz")
-    atoms = "".join(f"{i + 1} 1 {2 * case['radius']!r} {case['density']} {p[0]!r} {p[1]!r} {p[2]!r}\n"
-                    for i, p in enumerate(grains.tolist()))
+    atoms = "".join(
+        f"{i + 1} 1 {2 * case['radius']!r} {case['density']} {p[0]!r} {p[1]!r} {p[2]!r}\n"
+        for i, p in enumerate(grains.tolist())
+    )
     (folder / "grains.data").write_text(f"drum\n\n{len(grains)} atoms\n2 atom types\n\n{box}\nAtoms\n\n{atoms}")
 
 
@@ -80,10 +98,20 @@ def liggghts(program, case, folder, grains, turning):
 
 def yade_run(case, folder, grains):
     """What stir.py needs."""
-    return {"materials": yade_materials(case), "grains": grains.tolist(), "radius": case["radius"],
-            "rotor": drum.rotor(case), "drum": drum.drum(case), "speed": case["speed"], "dt": time_step(case),
-            "rows": round(case["turns"] * case["rowsPerTurn"]), "stepsPerRow": case["stepsPerRow"],
-            "gravity": case["gravity"], "out": str(folder / "rows"), "end": str(folder / "end")}
+    return {
+        "materials": yade_materials(case),
+        "grains": grains.tolist(),
+        "radius": case["radius"],
+        "rotor": drum.rotor(case),
+        "drum": drum.drum(case),
+        "speed": case["speed"],
+        "dt": time_step(case),
+        "rows": round(case["turns"] * case["rowsPerTurn"]),
+        "stepsPerRow": case["stepsPerRow"],
+        "gravity": case["gravity"],
+        "out": str(folder / "rows"),
+        "end": str(folder / "end"),
+    }
 
 
 def yade(program, case, folder, grains):
@@ -105,5 +133,9 @@ def observables(case, rows):
     torque, y, z, yy, zz, yz = kept[:, 1:].mean(axis=0)
     # the bed's slope: the long axis of the grains' scatter in the plane across the axis
     slope = 0.5 * math.degrees(math.atan2(2 * (yz - y * z), (yy - y * y) - (zz - z * z)))
-    return {"torque_Nm": torque, "angle_deg": math.degrees(math.atan2(y, -z)), "distance_m": math.hypot(y, z),
-            "slope_deg": slope}
+    return {
+        "torque_Nm": torque,
+        "angle_deg": math.degrees(math.atan2(y, -z)),
+        "distance_m": math.hypot(y, z),
+        "slope_deg": slope,
+    }

@@ -16,11 +16,19 @@ def build(run, look=()):
     O.engines = [
         ForceResetter(),
         InsertionSortCollider([Bo1_Sphere_Aabb(), Bo1_Facet_Aabb()], verletDist=0.3 * run["radius"]),
-        InteractionLoop([Ig2_Sphere_Sphere_ScGeom(avoidGranularRatcheting=False), Ig2_Facet_Sphere_ScGeom()],
-                        [Ip2_ViscElMat_ViscElMat_ViscElPhys()], [Law2_ScGeom_ViscElPhys_Basic()]),
+        InteractionLoop(
+            [Ig2_Sphere_Sphere_ScGeom(avoidGranularRatcheting=False), Ig2_Facet_Sphere_ScGeom()],
+            [Ip2_ViscElMat_ViscElMat_ViscElPhys()],
+            [Law2_ScGeom_ViscElPhys_Basic()],
+        ),
         *look,
-        RotationEngine(ids=rotor, rotationAxis=(1, 0, 0), angularVelocity=2 * numpy.pi * run["speed"], rotateAroundZero=True,
-                       zeroPoint=(0, 0, 0)),
+        RotationEngine(
+            ids=rotor,
+            rotationAxis=(1, 0, 0),
+            angularVelocity=2 * numpy.pi * run["speed"],
+            rotateAroundZero=True,
+            zeroPoint=(0, 0, 0),
+        ),
         NewtonIntegrator(damping=0, gravity=(0, 0, -run["gravity"])),
     ]
     return grains, rotor

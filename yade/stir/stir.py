@@ -40,11 +40,14 @@ def row():
 
 
 every = run["stepsPerRow"]
-grains, rotor = build(run, look=[
-    PyRunner(command="torque()", iterPeriod=8, firstIterRun=7),
-    PyRunner(command="shape()", iterPeriod=every // 4, firstIterRun=every // 4 - 1),
-    PyRunner(command="row()", iterPeriod=every, firstIterRun=every - 1),
-])
+grains, rotor = build(
+    run,
+    look=[
+        PyRunner(command="torque()", iterPeriod=8, firstIterRun=7),
+        PyRunner(command="shape()", iterPeriod=every // 4, firstIterRun=every // 4 - 1),
+        PyRunner(command="row()", iterPeriod=every, firstIterRun=every - 1),
+    ],
+)
 O.run(run["rows"] * every, wait=True)
 numpy.savetxt(run["end"], [O.bodies[b].state.pos for b in grains])
 out.close()
