@@ -2,7 +2,7 @@
 // Purpose: the proof. The check tests are simulated again with the effect at its estimated strength; beside it, on the
 // same tests, the baseline, recalibration alone, and a placebo (the best effect from outside the group).
 //
-// A plan holds one `liggghts -in ... -var ...` for every check test, variant and seed (gap/rigs.toml says how a test
+// A plan holds one `liggghts -in ... -var ...` for every check test, variant and seed (libraries/rigs.toml says how a test
 // becomes a run). Effects on the measurement chain need no run of their own: they transform what the recalibrated
 // baseline shows; a shift of a condition is a run at the shifted condition. Runs that are complete (run.json there) are
 // not made again; one that was made by another command or from other files is refused, complete or not. `effects` are
@@ -48,7 +48,7 @@ struct Plan {
 
 // Runs have the settings that the library's own runs of the rig have (plan.toml in the library's folder; `notes` says
 // so if there is none), so that what is confirmed is the baseline that was diagnosed. `root`: the folder that
-// gap/rigs.toml's paths start from; `runs`: where the run folders go; `extra`: further NAME=VALUE, for all rigs that
+// libraries/rigs.toml's paths start from; `runs`: where the run folders go; `extra`: further NAME=VALUE, for all rigs that
 // have such a -var; `known`: effects that every run has. Errors: BadInput for a rig without an entry, a script that is
 // not there, a setting that no rig has or whose value is no number where the rig states one, and a blank in the path of
 // the runs, at which LIGGGHTS would split it.

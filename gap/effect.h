@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Purpose: an effect, a named mechanism the baseline leaves out, as the data file gap/effects/NAME.toml states it.
+// Purpose: an effect, a named mechanism the baseline leaves out, as the data file libraries/effects/NAME.toml states it.
 //
 // One strength s with a unit and a prior range (uniform); s = 0 is the baseline. What it acts on (`apply`):
 //   apply.var        a `-var` of the rigs' input scripts, from its baseline value b in the parameter files:

@@ -24,7 +24,7 @@ std::vector<DiscrepancyEntry> discrepancies_of(const Library& library) {
 
 const InputFiles& existing(const InputFiles& files) {
   if (!fs::is_directory(files.library))
-    throw BadInput(files.library, 0, "is no response library", "name a folder with design.csv, such as gap/library");
+    throw BadInput(files.library, 0, "is no response library", "name a folder with design.csv, such as libraries/millet");
   return files;
 }
 

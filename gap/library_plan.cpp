@@ -91,7 +91,7 @@ FamilyFile read_family_file(const std::string& path) {
 const Effect& effect_of(const TomlTable& t, const std::vector<Effect>& effects) {
   const std::string name = t.text("name");
   const auto found = std::find_if(effects.begin(), effects.end(), [&](const Effect& e) { return e.name == name; });
-  if (found == effects.end()) t.refuse("name", fmt::format("'{}' has no effect file", name), "add it to gap/effects");
+  if (found == effects.end()) t.refuse("name", fmt::format("'{}' has no effect file", name), "add it to libraries/effects");
   return *found;
 }
 
@@ -124,7 +124,7 @@ void add_rig(LibraryPlan& plan, const TomlTable& t, const std::vector<Effect>& e
     for (const auto& [name, value] : numbers_by_name(c)) {
       if (name == "seeds") continue;
       const auto var = rig.vars.find(name);
-      if (var == rig.vars.end()) c.refuse(name, "is no condition of this rig", "see gap/rigs.toml");
+      if (var == rig.vars.end()) c.refuse(name, "is no condition of this rig", "see libraries/rigs.toml");
       conditions.back()[var->second] = number_text(value);
     }
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Purpose: the plan of a response library (gap/library/plan.toml): which runs it needs, as a study for
+// Purpose: the plan of a response library (libraries/millet/plan.toml): which runs it needs, as a study for
 // scripts/campaign, and the library made of those that are done.
 //
 //   seeds = 6                                  of the baseline under every condition
@@ -9,7 +9,7 @@
 //   members_from = "PATH"                      optional, same columns: `members` are rows of this file. A new posterior
 //                                              within their range then needs no new runs
 //   [[rig]]
-//   name = "mixer"                             of gap/rigs.toml
+//   name = "mixer"                             of libraries/rigs.toml
 //   settings = {grainDiameter = "0.012"}       -var of all its runs
 //   conditions = [{speed = 0.48, fill = 0.1}]  each with its baseline; seeds = 8 in one: its own number of seeds
 //   members_at = [1]                           numbers of the conditions at which the members are run, one seed each

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Purpose: the test that would separate effects that the data leave open best, per hour of work.
 //
-// Candidate tests stand in a data file (gap/next_tests.toml): rows they would add, their u, hours of work. For two
+// Candidate tests stand in a data file (libraries/next_tests.toml): rows they would add, their u, hours of work. For two
 // effects a, b at their most probable strengths given the data, D the difference of what they predict for present and
 // added rows together and C its covariance (both models' mean, strengths' uncertainty to first order included): the
 // expected separation is sqrt(D' C^-1 D). Its gain over the present rows alone, weighed over the pairs by the product

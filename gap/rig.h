@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Purpose: how a test becomes a run (gap/rigs.toml): folder and script of a rig, the -var of each condition, and where
+// Purpose: how a test becomes a run (libraries/rigs.toml): folder and script of a rig, the -var of each condition, and where
 // the baseline value of every -var stands.
 //
 // Errors: BadInput for a rig without an entry, a script or a parameter file that is not there.

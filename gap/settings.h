@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The numbers the diagnosis takes as given (gap/diagnosis.toml says what each means), and how TOML files are read here.
+// The numbers the diagnosis takes as given (libraries/diagnosis.toml says what each means), and how TOML files are read here.
 //
 // Errors: BadInput with file and line for a missing or unknown key, a value of another type or out of its range.
 #pragma once

@@ -126,7 +126,7 @@ TEST_F(GapBlind, TheAnswerIsTheSameWithAndWithoutTruthsInReach) {
   fs::remove_all(folder_ / "answers/0001");
   ASSERT_EQ(
       run(fmt::format(
-          "cd '{}' && '{}/gap/blind/diagnose-all' blind/cases answers sealed/isolability.json gap/library --draws 200",
+          "cd '{}' && '{}/gap/blind/diagnose-all' blind/cases answers sealed/isolability.json libraries/millet --draws 200",
           folder_.string(), VIELTO_SOURCE_DIR)),
       0)
       << output_;
@@ -140,7 +140,7 @@ TEST_F(GapBlind, RefusesAPlanOfAnImpossibleTransmitterWithOneClearLine) {
     std::string bad = plan;
     bad.replace(bad.find(line), line.size(), other);
     std::ofstream(folder_ / "bad.toml") << bad;
-    EXPECT_EQ(run(fmt::format("cd '{}' && gap-withhold --library gap/library --truth gap/library --tests tests.csv "
+    EXPECT_EQ(run(fmt::format("cd '{}' && gap-withhold --library libraries/millet --truth libraries/millet --tests tests.csv "
                               "--sealed sealed/isolability.json --plan bad.toml --out never",
                               folder_.string())),
               2);
@@ -229,8 +229,8 @@ TEST_F(GapBlind, RefusesTheSealOfOtherRows) {
   const auto at = tests.find("W,", tests.find('\n'));  // the first u
   tests.insert(tests.rfind(',', at - 2) + 1, "1");
   std::ofstream(folder_ / "other.csv") << tests;
-  EXPECT_EQ(run(fmt::format("cd '{}' && gap-withhold --library gap/library --truth truth/0 --tests other.csv --sealed "
-                            "sealed/isolability.json --plan '{}/gap/blind/plan.toml' --out other",
+  EXPECT_EQ(run(fmt::format("cd '{}' && gap-withhold --library libraries/millet --truth truth/0 --tests other.csv --sealed "
+                            "sealed/isolability.json --plan '{}/tests/data/toy_plan.toml' --out other",
                             folder_.string(), VIELTO_SOURCE_DIR)),
             2);
   EXPECT_NE(output_.find("was sealed for other rows than those of other.csv"), std::string::npos) << output_;

@@ -20,7 +20,7 @@ using namespace vielto;
 using namespace vielto::gap;
 
 InputFiles toy_files(const fs::path& library) {
-  return {library.string(), VIELTO_SOURCE_DIR "/gap/effects", VIELTO_SOURCE_DIR "/gap/diagnosis.toml"};
+  return {library.string(), VIELTO_SOURCE_DIR "/libraries/effects", VIELTO_SOURCE_DIR "/libraries/diagnosis.toml"};
 }
 
 // One library for all tests of the suite.
@@ -303,7 +303,7 @@ TEST(GapRegions, OtherConditionsHaveTheirsToo) {
 
 // An unknown effect cannot be added: the page of such an answer shows recalibration alone beside the baseline.
 TEST(GapPage, ShowsNoRunWithAnUnknownEffect) {
-  std::ifstream in(VIELTO_SOURCE_DIR "/gap/answers/wheat-wall-B/diagnosis.json");
+  std::ifstream in(VIELTO_SOURCE_DIR "/findings/wheat_walls/diagnosis.json");
   nlohmann::ordered_json answer = nlohmann::ordered_json::parse(in);
   answer["verdict"] = "unknown";
   answer["shrink_predicted"] = nullptr;  // as nothing is predicted of it
@@ -316,7 +316,7 @@ TEST(GapPage, ShowsNoRunWithAnUnknownEffect) {
 
 // Whether there is a gap hangs on a threshold from so many draws: the page says so where it could fall either way.
 TEST(GapPage, CallsACloseCallClose) {
-  std::ifstream in(VIELTO_SOURCE_DIR "/gap/answers/wheat-wall-B/diagnosis.json");
+  std::ifstream in(VIELTO_SOURCE_DIR "/findings/wheat_walls/diagnosis.json");
   nlohmann::ordered_json answer = nlohmann::ordered_json::parse(in);
   answer["log_odds"]["threshold"] = 1.8;
   answer["log_odds"]["threshold_low95"] = 1.5;
@@ -330,7 +330,7 @@ TEST(GapPage, CallsACloseCallClose) {
 // "No gap" must not read as "the simulation is right": the page tells how large a gap would have been seen.
 TEST(GapPage, OfNoGapTellsWhatCouldHideOne) {
   nlohmann::ordered_json answer;
-  std::ifstream(VIELTO_SOURCE_DIR "/gap/answers/wheat-wall-B/diagnosis.json") >> answer;
+  std::ifstream(VIELTO_SOURCE_DIR "/findings/wheat_walls/diagnosis.json") >> answer;
   answer["verdict"] = "no_gap";
   answer["next_test"] = answer["shrink"] = answer["shrink_predicted"] = nullptr;
   answer["where"] = {{{"apparatus", "mixer"},

@@ -90,7 +90,7 @@ with tempfile.TemporaryDirectory(prefix="vielto-effects-") as name:
     folder = pathlib.Path(name)
     acting = {
         path.stem
-        for path in (ROOT / "gap/effects").glob("*.toml")
+        for path in (ROOT / "libraries/effects").glob("*.toml")
         if any("mixer" in line for line in path.read_text().splitlines() if line.startswith("rigs"))
     }
     assert acting == set(STRENGTHS), acting ^ set(STRENGTHS)  # an effect that is added is tested too
@@ -103,11 +103,11 @@ with tempfile.TemporaryDirectory(prefix="vielto-effects-") as name:
             "plan",
             folder / "library/plan.toml",
             "--effects",
-            ROOT / "gap/effects",
+            ROOT / "libraries/effects",
             "--settings",
-            ROOT / "gap/diagnosis.toml",
+            ROOT / "libraries/diagnosis.toml",
             "--rigs",
-            ROOT / "gap/rigs.toml",
+            ROOT / "libraries/rigs.toml",
             "--root",
             ROOT,
             "--out",

@@ -14,7 +14,7 @@ namespace {
 using namespace vielto;
 using namespace vielto::gap;
 
-const std::string kGap = VIELTO_SOURCE_DIR "/gap/";
+const std::string kGap = VIELTO_SOURCE_DIR "/libraries/";
 
 std::vector<Effect> effects() { return read_effects(kGap + "effects", Settings::read(kGap + "diagnosis.toml")); }
 
@@ -35,7 +35,7 @@ TEST(GapEffects, TheMixerKnowsEverySwitchOrThePageSaysThatItDoesNot) {
   const std::string cases = VIELTO_SOURCE_DIR "/cases/", cards = VIELTO_SOURCE_DIR "/materials/";
   const ParFile mixer = ParFile::read(cases + "mixer/mixer.par"), law = ParFile::read(cases + "law.par"),
                 grain = ParFile::read(cards + "hulled_millet.par"), wall = ParFile::read(cards + "steel.par");
-  std::ifstream in(kGap + "README.md");
+  std::ifstream in(std::string(VIELTO_SOURCE_DIR) + "/gap/README.md");
   std::ostringstream page;
   page << in.rdbuf();
   for (const Effect& e : effects())

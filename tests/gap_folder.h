@@ -32,7 +32,7 @@ class GapFolder : public testing::Test {
     fs::remove_all(folder_);
     fs::create_directories(folder_ / "library");
     for (const char* name : {"effects", "diagnosis.toml", "next_tests.toml", "rigs.toml"})
-      fs::copy(fs::path(VIELTO_SOURCE_DIR) / "gap" / name, folder_ / name, fs::copy_options::recursive);
+      fs::copy(fs::path(VIELTO_SOURCE_DIR) / "libraries" / name, folder_ / name, fs::copy_options::recursive);
   }
   void TearDown() override { std::filesystem::remove_all(folder_); }
 

@@ -34,15 +34,15 @@ HEADER = (
 class Portion(unittest.TestCase):
     def setUp(self):
         self.folder = pathlib.Path(tempfile.mkdtemp())
-        gap = self.folder / "gap"
-        (gap / "library").mkdir(parents=True)
-        shutil.copytree(ROOT / "gap/effects", gap / "effects")
+        gap = self.folder / "libraries"
+        (gap / "millet").mkdir(parents=True)
+        shutil.copytree(ROOT / "libraries/effects", gap / "effects")
         for name in ("diagnosis.toml", "rigs.toml"):
-            shutil.copy(ROOT / "gap" / name, gap / name)
+            shutil.copy(ROOT / "libraries" / name, gap / name)
         for name in ("cases", "materials", "liggghts_addons"):  # the runs' inputs, which the test changes
             shutil.copytree(ROOT / name, self.folder / name, ignore=shutil.ignore_patterns("results"))
-        (gap / "library/plan.toml").write_text(PLAN)
-        self.assertEqual(self.vielto("gap", "plan", "gap/library/plan.toml", "--out", "study.csv").returncode, 0)
+        (gap / "millet/plan.toml").write_text(PLAN)
+        self.assertEqual(self.vielto("gap", "plan", "libraries/millet/plan.toml", "--out", "study.csv").returncode, 0)
         with open(self.folder / "study.csv") as file:
             self.runs = list(csv.DictReader(file))
         self.assertEqual(len(self.runs), 6 * 2 + 2 * 2)
@@ -58,7 +58,7 @@ class Portion(unittest.TestCase):
         return self.run_program(VIELTO, *words)
 
     def portion(self, results):
-        return self.run_program(ROOT / "gap/portion", "gap/library/plan.toml", results, "gap/library")
+        return self.run_program(ROOT / "gap/portion", "libraries/millet/plan.toml", results, "libraries/millet")
 
     def finish(self, results, runs, shift=0.0):
         script = hashlib.sha256((self.folder / "cases/drum/in.drum").read_bytes()).hexdigest()
@@ -76,10 +76,10 @@ class Portion(unittest.TestCase):
 
     def library(self):
         """file -> its rows, in any order"""
-        return {p.name: sorted(p.read_text().splitlines()) for p in (self.folder / "gap/library").glob("*.csv")}
+        return {p.name: sorted(p.read_text().splitlines()) for p in (self.folder / "libraries/millet").glob("*.csv")}
 
     def collect(self, results):
-        done = self.vielto("gap", "collect", "gap/library/plan.toml", results, "--out", "gap/library")
+        done = self.vielto("gap", "collect", "libraries/millet/plan.toml", results, "--out", "libraries/millet")
         self.assertEqual(done.returncode, 0, done.stderr)
 
     def change_script(self):
@@ -91,7 +91,7 @@ class Portion(unittest.TestCase):
         self.collect("all")
         whole = self.library()
         self.assertNotIn("sources.csv", whole)  # the parts of a mixer; a drum has none
-        for path in (self.folder / "gap/library").glob("*.csv"):
+        for path in (self.folder / "libraries/millet").glob("*.csv"):
             path.unlink()
         self.finish("first", self.runs[:12]), self.finish("second", self.runs[12:])
         self.collect("first")
@@ -103,8 +103,8 @@ class Portion(unittest.TestCase):
     def test_what_the_plan_has_no_longer_goes(self):
         self.finish("first", self.runs)
         self.collect("first")
-        (self.folder / "gap/library/plan.toml").write_text(PLAN.replace("[7, 14]", "[7, 20]"))
-        done = self.vielto("gap", "plan", "gap/library/plan.toml", "--out", "study.csv")
+        (self.folder / "libraries/millet/plan.toml").write_text(PLAN.replace("[7, 14]", "[7, 20]"))
+        done = self.vielto("gap", "plan", "libraries/millet/plan.toml", "--out", "study.csv")
         self.assertEqual(done.returncode, 0, done.stderr)
         with open(self.folder / "study.csv") as file:
             self.finish("second", [run for run in csv.DictReader(file) if "friction20" in run["run"]])
@@ -118,14 +118,14 @@ class Portion(unittest.TestCase):
         self.finish("first", self.runs)
         self.collect("first")
         self.assertIn("wall_friction,drum,wall_frictionAngle offset 2", self.library()["effects.csv"])
-        effect = self.folder / "gap/effects/wall_friction.toml"
+        effect = self.folder / "libraries/effects/wall_friction.toml"
         effect.write_text(effect.read_text().replace("factor = 2.0", "factor = 3.0"))
         # the old runs are not taken for runs of the new effect ...
-        done = self.vielto("gap", "collect", "gap/library/plan.toml", "first", "--out", "other")
+        done = self.vielto("gap", "collect", "libraries/millet/plan.toml", "first", "--out", "other")
         self.assertEqual(done.returncode, 2)
         self.assertIn("made with wall_frictionAngle", done.stderr)
         # ... a new run takes the place of all of them
-        self.assertEqual(self.vielto("gap", "plan", "gap/library/plan.toml", "--out", "study.csv").returncode, 0)
+        self.assertEqual(self.vielto("gap", "plan", "libraries/millet/plan.toml", "--out", "study.csv").returncode, 0)
         with open(self.folder / "study.csv") as file:
             self.finish("new", [run for run in csv.DictReader(file) if "wall_friction7" in run["run"]], shift=0.1)
         done = self.portion("new")
@@ -167,7 +167,7 @@ class Portion(unittest.TestCase):
         self.assertIn("has other numbers", done.stderr)
         self.assertEqual(self.library(), before)
         self.assertEqual(
-            [p.name for p in (self.folder / "gap").iterdir() if p.is_dir() and p.name.startswith("tmp")], []
+            [p.name for p in (self.folder / "libraries").iterdir() if p.is_dir() and p.name.startswith("tmp")], []
         )
 
 

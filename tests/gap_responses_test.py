@@ -115,8 +115,8 @@ with tempfile.TemporaryDirectory(prefix="vielto-responses-") as name:
     assert not list(folder.glob("*.partial*"))
 
 for library, observable, words in (
-    ("library", "power", "| slice_ends | 1 |"),
-    ("library_wheat", "angle", "| wall_friction | 14 |"),
+    ("millet", "power", "| slice_ends | 1 |"),
+    ("wheat", "angle", "| wall_friction | 14 |"),
 ):
-    told = responses(ROOT / "gap" / library, "--observable", observable)
+    told = responses(ROOT / "libraries" / library, "--observable", observable)
     assert told.returncode == 0 and words in told.stdout, told.stdout + told.stderr

@@ -5,17 +5,17 @@ set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
 folder=$(realpath -m "$1") truths=$2 plan=$(realpath "$3") draws=${4:-1000}
 rm -rf "$folder"
-mkdir -p "$folder/gap"
-cp -r "$here"/../gap/effects "$here"/../gap/*.toml "$folder/gap/"
+mkdir -p "$folder/libraries"
+cp -r "$here"/../libraries/effects "$here"/../libraries/*.toml "$folder/libraries/"
 gap_toy_library "$folder" "$truths"
 cd "$folder"
-vielto gap isolability tests.csv --library gap/library --draws "$draws" --out sealed >/dev/null
+vielto gap isolability tests.csv --library libraries/millet --draws "$draws" --out sealed >/dev/null
 truth=()
 for t in truth/*/; do truth+=(--truth "$t"); done
-gap-withhold --library gap/library "${truth[@]}" --tests tests.csv --sealed sealed/isolability.json --plan "$plan" --out blind >/dev/null
+gap-withhold --library libraries/millet "${truth[@]}" --tests tests.csv --sealed sealed/isolability.json --plan "$plan" --out blind >/dev/null
 # The diagnosis runs without any truth in reach.
 "$here/../gap/blind/in-secret" truth blind/truth blind/seals.sha256 -- \
-  "$here/../gap/blind/diagnose-all" blind/cases answers sealed/isolability.json gap/library --draws "$draws"
+  "$here/../gap/blind/diagnose-all" blind/cases answers sealed/isolability.json libraries/millet --draws "$draws"
 gap-score blind --answers answers --sealed sealed/isolability.json --out score.json
 for k in 1 2 3 4 5 6 7 8; do
   gap-score blind --answers answers --sealed sealed/isolability.json --shuffle $k --out shuffled$k.json

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Each rig against its reference file, cases/RIG/reference.csv: the numbers of eight seeds or more of a coarse run
-// (scripts/reference, settings in workflow/studies/reference.csv). Seed 9, which is none of them, run here through the
+// (scripts/reference, settings in studies/reference.csv). Seed 9, which is none of them, run here through the
 // rig's command line, must lie where one more draw of the same lot lies: mean +- t s sqrt(1 + 1/n), t Student's
 // quantile for one number out of the thirteen being outside once in a hundred times. Not bit by bit: a change of
 // round-off leads to another bed, and to another draw.
@@ -45,7 +45,7 @@ TEST_P(RigReference, AnotherSeedIsOneMoreDraw) {
   const std::string source = VIELTO_SOURCE_DIR;
   const int seed = 9;
   std::string options;
-  for (const Row& row : table(source + "/workflow/studies/reference.csv"))
+  for (const Row& row : table(source + "/studies/reference.csv"))
     if (row.at("run") == GetParam().name + "_s1")
       for (const auto& [name, value] : row)
         if (name != "run" && name != "rig" && name != "seed" && !value.empty())

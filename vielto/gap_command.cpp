@@ -387,7 +387,7 @@ void run_discrepancy(const GapOptions& o) {
 
 LibraryPlan library_plan(const GapOptions& o) {
   if (!fs::is_regular_file(o.table))
-    throw BadInput(o.table, 0, "is no file", "name a plan, such as gap/library/plan.toml");
+    throw BadInput(o.table, 0, "is no file", "name a plan, such as libraries/millet/plan.toml");
   const InputFiles files =
       InputFiles{fs::path(o.table).parent_path().string(), o.files.effects, o.files.settings}.completed();
   const std::string rigs = o.rigs.empty() ? (fs::path(files.settings).parent_path() / "rigs.toml").string() : o.rigs;
@@ -427,7 +427,7 @@ void add_gap_command(CLI::App& app) {
       },
       "CONDITION");
   const auto common = [&](CLI::App* c) {
-    c->add_option("--library", o->files.library, "response library (gap/library/)")->required();
+    c->add_option("--library", o->files.library, "response library (libraries/millet/)")->required();
     c->add_option("--effects", o->files.effects, "folder of effect files; without it effects/ beside the library");
     c->add_option("--settings", o->files.settings, "without it diagnosis.toml beside the library");
     c->add_option("--ignore", o->ignored, "conditions that need not agree with the library, such as moisture,wall")
@@ -467,7 +467,7 @@ void add_gap_command(CLI::App& app) {
   CLI::App* diagnose_command =
       gap->add_subcommand("diagnose",
                           "what explains the gap: diagnosis.json and diagnosis.html\n"
-                          "Example: vielto gap diagnose measured.csv --library gap/library --out answer");
+                          "Example: vielto gap diagnose measured.csv --library libraries/millet --out answer");
   question(diagnose_command);
   answer(diagnose_command);
   diagnose_command->add_option("--out", o->out, "folder for the answer")->required();
@@ -497,7 +497,7 @@ void add_gap_command(CLI::App& app) {
   CLI::App* predict_command = gap->add_subcommand(
       "predict",
       "what the calibrated simulation says under these conditions, without a run, and how sure it is\n"
-      "Every combination of the conditions. Example: vielto gap predict --library gap/library --speed 0.5,1 --fill "
+      "Every combination of the conditions. Example: vielto gap predict --library libraries/millet --speed 0.5,1 --fill "
       "0.2");
   common(predict_command);
   predict_command->add_option("--apparatus", o->apparatus, "mixer, shearbox, repose, drum")->capture_default_str();
@@ -520,7 +520,7 @@ void add_gap_command(CLI::App& app) {
   discrepancy_command->callback([o] { run_discrepancy(*o); });
 
   const auto planned = [&](CLI::App* c) {
-    c->add_option("PLAN", o->table, "plan of the library, such as gap/library/plan.toml")->required();
+    c->add_option("PLAN", o->table, "plan of the library, such as libraries/millet/plan.toml")->required();
     c->add_option("--effects", o->files.effects,
                   "folder of effect files; without it effects/ beside the plan's folder");
     c->add_option("--settings", o->files.settings, "without it diagnosis.toml beside the plan's folder");
@@ -530,7 +530,7 @@ void add_gap_command(CLI::App& app) {
   CLI::App* plan_command =
       gap->add_subcommand("plan",
                           "the runs of a response library as a study for scripts/campaign\n"
-                          "Example: vielto gap plan gap/library/plan.toml --out workflow/studies/library.csv");
+                          "Example: vielto gap plan libraries/millet/plan.toml --out studies/library.csv");
   planned(plan_command);
   plan_command->add_option("--out", o->out, "study table to write")->required();
   plan_command->callback([o] { run_plan_command(*o); });
@@ -538,7 +538,7 @@ void add_gap_command(CLI::App& app) {
   CLI::App* collect_command = gap->add_subcommand(
       "collect",
       "makes the response library of the runs that are done, with the hashes of what they were made from\n"
-      "Example: vielto gap collect gap/library/plan.toml results/studies/library --out gap/library");
+      "Example: vielto gap collect libraries/millet/plan.toml results/studies/library --out libraries/millet");
   planned(collect_command);
   collect_command->add_option("RESULTS", o->runs, "the campaign's folder")->required();
   collect_command->add_option("--out", o->out, "folder of the library")->required();

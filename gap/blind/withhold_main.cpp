@@ -16,7 +16,7 @@ int main(int argc, char** argv) {
   app.add_option("--tests", r.tests, "observation table: conditions, roles and u of the rows (values are not used)")
       ->required();
   app.add_option("--sealed", r.isolability, "isolability.json of those tests")->required();
-  app.add_option("--plan", r.plan, "how many cases of which kind (gap/blind/plan.toml)")->required();
+  app.add_option("--plan", r.plan, "how many cases of which kind (tests/data/toy_plan.toml)")->required();
   app.add_option("--ignore", r.ignored, "conditions that need not agree with the libraries")->delimiter(',');
   app.add_option("--seed", r.seed, "of all draws")->capture_default_str();
   app.add_option("--out", r.out, "folder to make")->required();
