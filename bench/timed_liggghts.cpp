@@ -27,10 +27,10 @@
 #include "contact_models.h"
 #include "pair_gran_base.h"
 #include "fix_wall_gran_base.h"
-#include "fix_vielto_wall.h"
-#include "vielto_open.h"
-#include "vielto_pair.h"
-#include "vielto_register.h"
+#include "engine/wall_loop.h"
+#include "engine/private_access.h"
+#include "engine/pair_loop.h"
+#include "engine/registration.h"
 // clang-format on
 
 using namespace LAMMPS_NS;

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "data_file.h"
+#include "report/data_file.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <fstream>
 
-#include "bad_input.h"
-#include "csv.h"
+#include "core/bad_input.h"
+#include "core/csv.h"
 
 namespace vielto {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "equation_pages.h"
+#include "report/equation_pages.h"
 
 #include <fmt/format.h>
 
@@ -8,10 +8,10 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "bad_input.h"
-#include "csv.h"
-#include "numbers.h"
-#include "statistics.h"
+#include "core/bad_input.h"
+#include "core/csv.h"
+#include "core/mixing_numbers.h"
+#include "core/statistics.h"
 
 namespace vielto {
 namespace {

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "page.h"
-#include "power_equation.h"
+#include "equation/power_equation.h"
+#include "report/page.h"
 
 namespace vielto {
 

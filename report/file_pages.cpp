@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "file_pages.h"
+#include "report/file_pages.h"
 
 #include <fmt/format.h>
 
@@ -9,11 +9,11 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "bad_input.h"
-#include "data_file.h"
-#include "equation_pages.h"
-#include "reduced_table.h"
-#include "statistics.h"
+#include "core/bad_input.h"
+#include "core/reduced_table.h"
+#include "core/statistics.h"
+#include "report/data_file.h"
+#include "report/equation_pages.h"
 
 namespace vielto {
 namespace {

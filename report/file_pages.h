@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "page.h"
+#include "report/page.h"
 
 namespace vielto {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "page.h"
+#include "report/page.h"
 
 #include <fmt/format.h>
 #include <vtkBase64Utilities.h>
@@ -10,8 +10,8 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "bad_input.h"
-#include "csv.h"
+#include "core/bad_input.h"
+#include "core/csv.h"
 
 namespace vielto {
 namespace {

@@ -6,7 +6,7 @@
 #include <variant>
 #include <vector>
 
-#include "plot.h"
+#include "report/plot.h"
 
 namespace vielto {
 

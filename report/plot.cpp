@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "plot.h"
+#include "report/plot.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "csv.h"
+#include "core/csv.h"
 
 namespace vielto {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "report.h"
+#include "report/report.h"
 
 #include <fmt/format.h>
 
@@ -14,12 +14,12 @@
 #include <set>
 #include <sstream>
 
-#include "bad_input.h"
-#include "csv.h"
-#include "equation_pages.h"
-#include "file_pages.h"
-#include "picture.h"
-#include "run_pages.h"
+#include "core/bad_input.h"
+#include "core/csv.h"
+#include "report/equation_pages.h"
+#include "report/file_pages.h"
+#include "report/run_pages.h"
+#include "rigs/picture.h"
 
 namespace vielto {
 namespace {

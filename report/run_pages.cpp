@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "run_pages.h"
+#include "report/run_pages.h"
 
 #include <fmt/format.h>
 
@@ -9,12 +9,12 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "bad_input.h"
-#include "data_file.h"
-#include "mixing_power.h"
-#include "numbers.h"
-#include "steady_part.h"
-#include "torque_record.h"
+#include "core/bad_input.h"
+#include "core/mixing_numbers.h"
+#include "core/steady_part.h"
+#include "report/data_file.h"
+#include "rigs/mixer/mixing_power.h"
+#include "rigs/mixer/torque_record.h"
 
 namespace vielto {
 namespace {

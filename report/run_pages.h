@@ -6,8 +6,8 @@
 #include <optional>
 #include <string>
 
-#include "equation_pages.h"
-#include "page.h"
+#include "report/equation_pages.h"
+#include "report/page.h"
 
 namespace vielto {
 

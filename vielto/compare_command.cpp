@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "commands.h"
-#include "comparison.h"
-#include "csv.h"
+#include "core/csv.h"
+#include "equation/comparison.h"
 
 namespace vielto {
 namespace {

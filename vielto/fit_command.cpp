@@ -8,11 +8,11 @@
 #include <string>
 #include <vector>
 
-#include "bad_input.h"
 #include "commands.h"
-#include "csv.h"
+#include "core/bad_input.h"
+#include "core/csv.h"
+#include "equation/power_fit.h"
 #include "material_options.h"
-#include "power_fit.h"
 
 namespace vielto {
 namespace {

@@ -14,17 +14,17 @@
 #include <string>
 #include <vector>
 
-#include "bad_input.h"
 #include "commands.h"
-#include "confirm.h"
-#include "csv.h"
-#include "inputs.h"
-#include "library_plan.h"
-#include "next_question.h"
-#include "page.h"
-#include "sha256.h"
-#include "simulated.h"
-#include "sources.h"
+#include "core/bad_input.h"
+#include "core/csv.h"
+#include "core/sha256.h"
+#include "gap/library/library_plan.h"
+#include "gap/library/sources.h"
+#include "gap/question/confirm.h"
+#include "gap/question/inputs.h"
+#include "gap/question/next_question.h"
+#include "gap/question/simulated.h"
+#include "report/diagnosis_page.h"
 
 namespace vielto {
 namespace {
@@ -497,7 +497,8 @@ void add_gap_command(CLI::App& app) {
   CLI::App* predict_command = gap->add_subcommand(
       "predict",
       "what the calibrated simulation says under these conditions, without a run, and how sure it is\n"
-      "Every combination of the conditions. Example: vielto gap predict --library libraries/millet --speed 0.5,1 --fill "
+      "Every combination of the conditions. Example: vielto gap predict --library libraries/millet --speed 0.5,1 "
+      "--fill "
       "0.2");
   common(predict_command);
   predict_command->add_option("--apparatus", o->apparatus, "mixer, shearbox, repose, drum")->capture_default_str();

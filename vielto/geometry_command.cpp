@@ -6,10 +6,10 @@
 #include <cstdlib>
 #include <memory>
 
-#include "bad_input.h"
 #include "commands.h"
-#include "geometry_output.h"
-#include "stl.h"
+#include "core/bad_input.h"
+#include "geometry/geometry_output.h"
+#include "geometry/stl.h"
 
 namespace vielto {
 namespace {

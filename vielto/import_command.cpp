@@ -13,17 +13,17 @@
 #include <utility>
 #include <vector>
 
-#include "bad_input.h"
-#include "bed_shape.h"
-#include "column_text.h"
 #include "commands.h"
-#include "mixing_power.h"
-#include "numbers.h"
-#include "observation_table.h"
-#include "sampled_torque.h"
-#include "sphere_file.h"
-#include "steady_part.h"
-#include "whole_shaft.h"
+#include "core/bad_input.h"
+#include "core/mixing_numbers.h"
+#include "core/observation_table.h"
+#include "core/steady_part.h"
+#include "import/column_text.h"
+#include "import/sampled_torque.h"
+#include "import/sphere_file.h"
+#include "rigs/drum/bed_shape.h"
+#include "rigs/mixer/mixing_power.h"
+#include "rigs/mixer/whole_shaft.h"
 
 namespace vielto {
 namespace {

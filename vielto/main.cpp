@@ -3,8 +3,8 @@
 #include <cstdio>
 #include <exception>
 
-#include "bad_input.h"
 #include "commands.h"
+#include "core/bad_input.h"
 
 int main(int argc, char** argv) {
   CLI::App app{"vielto - mixing power of a granular mixer: geometry, records, numbers, regression, gap"};

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "groups.h"
+#include "equation/dimensionless_groups.h"
 
 namespace vielto {
 

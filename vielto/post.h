@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <string>
 
-#include "observation_table.h"
-#include "steady_part.h"
+#include "core/observation_table.h"
+#include "core/steady_part.h"
 
 namespace vielto {
 

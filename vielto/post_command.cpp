@@ -4,11 +4,11 @@
 #include <memory>
 #include <string>
 
-#include "bad_input.h"
 #include "commands.h"
-#include "picture.h"
+#include "core/bad_input.h"
+#include "core/record_file.h"
 #include "post.h"
-#include "record_file.h"
+#include "rigs/picture.h"
 
 namespace vielto {
 namespace {

@@ -4,10 +4,10 @@
 
 #include <cstdio>
 
-#include "bed_output.h"
-#include "csv.h"
-#include "picture.h"
+#include "core/csv.h"
 #include "post.h"
+#include "rigs/drum/bed_output.h"
+#include "rigs/picture.h"
 
 namespace vielto {
 

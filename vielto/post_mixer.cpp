@@ -3,12 +3,12 @@
 #include <cstdio>
 #include <optional>
 
-#include "csv.h"
-#include "mixing_power.h"
-#include "mixing_power_output.h"
-#include "picture.h"
+#include "core/csv.h"
 #include "post.h"
-#include "torque_record.h"
+#include "rigs/mixer/mixing_power.h"
+#include "rigs/mixer/mixing_power_output.h"
+#include "rigs/mixer/torque_record.h"
+#include "rigs/picture.h"
 
 namespace vielto {
 

@@ -4,10 +4,10 @@
 
 #include <cstdio>
 
-#include "csv.h"
-#include "picture.h"
+#include "core/csv.h"
 #include "post.h"
-#include "repose_output.h"
+#include "rigs/picture.h"
+#include "rigs/repose/repose_output.h"
 
 namespace vielto {
 

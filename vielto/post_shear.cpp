@@ -2,10 +2,10 @@
 // Record of a direct shear test -> shear stress, friction, plate force, observation rows, picture.
 #include <cstdio>
 
-#include "csv.h"
-#include "picture.h"
+#include "core/csv.h"
 #include "post.h"
-#include "shear_result_output.h"
+#include "rigs/picture.h"
+#include "rigs/shearbox/shear_result_output.h"
 
 namespace vielto {
 

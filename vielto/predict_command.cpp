@@ -14,12 +14,12 @@
 #include <string>
 #include <vector>
 
-#include "bad_input.h"
 #include "commands.h"
-#include "csv.h"
-#include "equation_covariance.h"
+#include "core/bad_input.h"
+#include "core/csv.h"
+#include "equation/equation_covariance.h"
+#include "equation/power_equation.h"
 #include "material_options.h"
-#include "power_equation.h"
 
 namespace vielto {
 namespace {

@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "commands.h"
-#include "report.h"
+#include "report/report.h"
 
 namespace vielto {
 

@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <exception>
 
-#include "bad_input.h"
+#include "core/bad_input.h"
 
 namespace vielto::gap {
 

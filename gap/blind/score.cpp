@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "score.h"
+#include "gap/blind/score.h"
 
 #include <fmt/format.h>
 
@@ -13,8 +13,8 @@
 #include <set>
 #include <vector>
 
-#include "bad_input.h"
-#include "sha256.h"
+#include "core/bad_input.h"
+#include "core/sha256.h"
 
 namespace vielto::gap {
 namespace {

@@ -3,9 +3,9 @@
 #include <fstream>
 #include <optional>
 
-#include "csv.h"
-#include "program.h"
-#include "score.h"
+#include "core/csv.h"
+#include "gap/blind/program.h"
+#include "gap/blind/score.h"
 
 int main(int argc, char** argv) {
   CLI::App app{"marks of a blind check", "gap-score"};

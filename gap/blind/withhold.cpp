@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "withhold.h"
+#include "gap/blind/withhold.h"
 
 #include <fmt/format.h>
 
@@ -10,11 +10,11 @@
 #include <optional>
 #include <random>
 
-#include "bad_input.h"
-#include "csv.h"
-#include "power_signal.h"
-#include "regions.h"
-#include "sha256.h"
+#include "core/bad_input.h"
+#include "core/csv.h"
+#include "core/sha256.h"
+#include "gap/blind/power_signal.h"
+#include "gap/verdict/regions.h"
 
 namespace vielto::gap {
 namespace {

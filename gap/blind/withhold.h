@@ -16,7 +16,7 @@
 #include <string>
 #include <vector>
 
-#include "inputs.h"
+#include "gap/question/inputs.h"
 
 namespace vielto::gap {
 

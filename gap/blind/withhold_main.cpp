@@ -2,8 +2,8 @@
 // gap-withhold: makes the withheld cases of a blind check (withhold.h).
 #include <fmt/format.h>
 
-#include "program.h"
-#include "withhold.h"
+#include "gap/blind/program.h"
+#include "gap/blind/withhold.h"
 
 int main(int argc, char** argv) {
   CLI::App app{"withheld cases from response libraries of other laws, truths sealed", "gap-withhold"};

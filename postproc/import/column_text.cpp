@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "column_text.h"
+#include "import/column_text.h"
 
 #include <fmt/format.h>
 
@@ -9,8 +9,8 @@
 #include <optional>
 #include <string_view>
 
-#include "bad_input.h"
-#include "csv.h"
+#include "core/bad_input.h"
+#include "core/csv.h"
 
 namespace vielto {
 namespace {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "sampled_torque.h"
+#include "import/sampled_torque.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "bad_input.h"
-#include "torque_record.h"
+#include "core/bad_input.h"
+#include "rigs/mixer/torque_record.h"
 
 namespace vielto {
 namespace {

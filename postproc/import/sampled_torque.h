@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "column_text.h"
+#include "import/column_text.h"
 
 namespace vielto {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "sphere_file.h"
+#include "import/sphere_file.h"
 
 #include <fmt/format.h>
 #include <vtkDataArray.h>
@@ -15,8 +15,8 @@
 #include <cmath>
 #include <filesystem>
 
-#include "bad_input.h"
-#include "column_text.h"
+#include "core/bad_input.h"
+#include "import/column_text.h"
 
 namespace vielto {
 namespace {

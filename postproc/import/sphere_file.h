@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "grain.h"
+#include "rigs/grain.h"
 
 namespace vielto {
 

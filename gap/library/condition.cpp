@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "gap/library/condition.h"
+
+#include <fmt/format.h>
+
+namespace vielto::gap {
+
+std::string conditions_text(const Observation& row) {
+  std::string text;
+  for (const NamedCondition& c : kConditions)
+    if (row.*c.member) text += fmt::format("{}{} {:.6g}", text.empty() ? "" : ", ", c.name, *(row.*c.member));
+  return text;
+}
+
+}  // namespace vielto::gap

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Purpose: an effect, a named mechanism the baseline leaves out, as the data file libraries/effects/NAME.toml states
+// it.
+//
+// One strength s with a unit and a prior range (uniform); s = 0 is the baseline. What it acts on (`apply`):
+//   apply.var        a `-var` of the rigs' input scripts, from its baseline value b in the parameter files:
+//                      value   factor s            offset  b + factor s         scale  b (1 + factor s)
+//                      power10 b 10^(factor s)     divide  b / (1 + factor s)   (with whole = true, rounded)
+//                      word    a word              switch  a word, the whole change; s is the share of it
+//   apply.transform  the measurement chain, on an observable y at condition c (speed or fill ...), with
+//                    g = factor s prod_k (c_k/reference_k)^power_of_k:
+//                      scale  y (1 + g)    add  y + g    exponential  y exp(g)    shift  y at c (1 + factor s)
+// At s = 0 no `-var` is written and no transform acts: the baseline bit for bit.
+//
+// Errors: BadInput with file, line and key.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "core/observation_table.h"
+#include "gap/library/settings.h"
+
+namespace vielto::gap {
+
+enum class VarRule { value, offset, scale, power10, divide, word, switched };
+
+struct VarChange {
+  std::vector<std::string> rigs;
+  std::string name;
+  VarRule rule = VarRule::value;
+  double factor = 0;
+  bool whole = false;
+  std::string word;
+
+  bool acts_on(const std::string& rig) const;
+  // The text after `-var name`, for the baseline value `base` (not used by value, word, switch).
+  std::string text(double base, double strength) const;
+  bool needs_base() const;
+};
+
+enum class Operation { scale, add, exponential, shift };
+
+struct Transform {
+  std::string apparatus, observable;  // observable "*": all of the apparatus
+  Operation operation = Operation::scale;
+  double factor = 0;
+  std::string condition;  // of shift
+  std::map<std::string, double> power_of, reference;
+
+  bool acts_on(const std::string& on_apparatus, const std::string& on_observable) const;
+  // g at the conditions of `row`. Errors: BadInput if the row lacks a condition that is asked for.
+  double amount(const Observation& row, double strength) const;
+};
+
+struct Effect {
+  std::string path, name, kind, unit, source;  // kind: dem, geometry, measurement, numerical
+  double prior_low = 0, prior_high = 0;
+  double shape_error = 0;
+  std::vector<VarChange> vars;
+  std::vector<Transform> transforms;
+
+  bool acts_on_rig(const std::string& rig) const;
+  // What it changes in a rig, one line without commas: runs made when it changed something else are of another effect.
+  std::string changes(const std::string& rig) const;
+  const Transform* transform_of(const std::string& apparatus, const std::string& observable) const;
+};
+
+Effect read_effect(const std::string& path, const Settings& settings);
+
+// Every *.toml of a folder, sorted by name. Errors: BadInput also if there is none.
+std::vector<Effect> read_effects(const std::string& folder, const Settings& settings);
+
+}  // namespace vielto::gap

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "gap/library/rig.h"
+
+#include <fmt/format.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+#include "core/bad_input.h"
+#include "core/par_file.h"
+
+namespace vielto::gap {
+
+namespace fs = std::filesystem;
+
+Rig Rig::read(const TomlTable& file, const std::string& name, const std::string& root) {
+  if (!file.has(name)) file.refuse(name, "is missing", fmt::format("add [{}]", name));
+  const TomlTable t = file.table(name);
+  t.only({"folder", "script", "parameters", "includes", "wall", "vars", "post"});
+  Rig rig;
+  rig.name = name;
+  rig.folder = (fs::path(root) / t.text("folder")).lexically_normal().string();
+  rig.script = t.text("script");
+  const auto path_of = [&](const std::string& path) {
+    return (fs::path(rig.folder) / path).lexically_normal().string();
+  };
+  if (!fs::exists(path_of(rig.script)))
+    t.refuse("script", fmt::format("{}/{} is not there", rig.folder, rig.script),
+             "state --root, or a rig that can be run");
+  rig.files.push_back(path_of(rig.script));
+  if (t.has("post")) rig.post = t.text("post");
+  const TomlTable vars = t.table("vars");
+  for (const auto& entry : vars.raw())
+    rig.vars[std::string(entry.first.str())] = vars.text(std::string(entry.first.str()));
+  const auto add = [&](const std::string& path, const std::string& prefix) {
+    rig.files.push_back(path_of(path));
+    const ParFile par = ParFile::read(path_of(path));
+    for (const Parameter& p : par.all()) {
+      rig.known.insert(prefix + p.name);
+      char* end = nullptr;
+      const double value = std::strtod(p.value.c_str(), &end);
+      // as in LIGGGHTS: what the rig states of a card's parameter comes first and holds
+      if (end != p.value.c_str() && *end == '\0') rig.base.emplace(prefix + p.name, value);
+    }
+  };
+  if (const toml::array* files = t.raw()["parameters"].as_array())
+    for (const toml::node& node : *files) add(node.value_or<std::string>(""), "");
+  if (t.has("wall")) add(t.text("wall"), "wall_");
+  if (const toml::array* files = t.raw()["includes"].as_array())
+    for (const toml::node& node : *files) rig.files.push_back(path_of(node.value_or<std::string>("")));
+  return rig;
+}
+
+std::map<std::string, std::string> Rig::settings(const Effect& effect, double strength,
+                                                 const std::map<std::string, double>& from) const {
+  std::map<std::string, std::string> changed;
+  if (strength == 0) return changed;
+  for (const VarChange& change : effect.vars) {
+    if (!change.acts_on(name)) continue;
+    // LIGGGHTS takes any -var in silence: one that the rig does not read would be no effect at all.
+    if (known.count(change.name) == 0)
+      throw BadInput(effect.path, 0, change.name, fmt::format("is no parameter of {}", script),
+                     "give the rig this switch first (gap/README.md)");
+    if (change.needs_base() && from.count(change.name) == 0)
+      throw BadInput(effect.path, 0, change.name, fmt::format("has no baseline value in the files of {}", name),
+                     "state it in the rig's parameter file");
+    changed[change.name] = change.text(change.needs_base() ? from.at(change.name) : 0, strength);
+  }
+  return changed;
+}
+
+std::string changed_file(const nlohmann::json& run, const std::map<std::string, std::string>& hash_of) {
+  const auto hashes = run.find("hashes");
+  if (hashes == run.end()) return "";
+  for (const auto& [name, hash] : hashes->items()) {
+    const auto now = hash_of.find(name);
+    if (now != hash_of.end() && now->second != hash) return name;
+  }
+  return "";
+}
+
+nlohmann::json read_json(const std::string& path) {
+  std::ifstream in(path);
+  nlohmann::json j = nlohmann::json::parse(in, nullptr, false);
+  if (!j.is_object()) throw BadInput(path, 0, "is no JSON object", "make the run again");
+  return j;
+}
+
+}  // namespace vielto::gap

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "gap/library/settings.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "core/bad_input.h"
+
+namespace vielto::gap {
+
+TomlTable TomlTable::read(const std::string& path) {
+  if (!std::filesystem::is_regular_file(path)) throw BadInput(path, 0, "cannot be read", "name an existing TOML file");
+  try {
+    return TomlTable(path, toml::parse_file(path));
+  } catch (const toml::parse_error& error) {
+    throw BadInput(path, static_cast<int>(error.source().begin.line), std::string(error.description()),
+                   "write it as TOML (toml.io)");
+  }
+}
+
+void TomlTable::refuse(const std::string& key, const std::string& what, const std::string& mend) const {
+  const toml::node* node = table_.get(key);
+  const auto line = node ? node->source().begin.line : table_.source().begin.line;
+  throw BadInput(path_, static_cast<int>(line), key, what, mend);
+}
+
+double TomlTable::number(const std::string& key, double low, double high) const {
+  const toml::node* node = table_.get(key);
+  if (!node) refuse(key, "is missing", fmt::format("state a number from {} to {}", low, high));
+  const auto value = node->is_number() ? node->value<double>() : std::nullopt;
+  if (!value || !std::isfinite(*value)) refuse(key, "is not a finite number", "write a number without quotes");
+  if (*value < low || *value > high)
+    refuse(key, fmt::format("{} is out of range", *value), fmt::format("state a number from {} to {}", low, high));
+  return *value;
+}
+
+double TomlTable::number_or(const std::string& key, double fallback, double low, double high) const {
+  return has(key) ? number(key, low, high) : fallback;
+}
+
+std::string TomlTable::text(const std::string& key) const {
+  const auto value = table_[key].value<std::string>();
+  if (!value || value->empty()) refuse(key, has(key) ? "is no text" : "is missing", "state it in quotes");
+  return *value;
+}
+
+TomlTable TomlTable::table(const std::string& key) const {
+  const toml::table* found = table_[key].as_table();
+  if (!found) refuse(key, has(key) ? "is no table" : "is missing", fmt::format("add [{}]", key));
+  return TomlTable(path_, *found);
+}
+
+void TomlTable::only(std::initializer_list<const char*> known) const {
+  for (const auto& [key, node] : table_) {
+    const std::string name(key.str());
+    if (std::find(known.begin(), known.end(), name) == known.end())
+      refuse(name, "is no key here", fmt::format("use {}", fmt::join(known, ", ")));
+  }
+}
+
+Settings Settings::read(const std::string& path) {
+  const TomlTable file = TomlTable::read(path);
+  file.only({"prior", "effect", "unknown", "verdict", "isolability", "where"});
+  Settings s;
+  const TomlTable prior = file.table("prior");
+  prior.only({"no_gap", "single", "pair", "unknown"});
+  s.prior_no_gap = prior.number("no_gap", 0, 1);
+  s.prior_single = prior.number("single", 0, 1);
+  s.prior_pair = prior.number("pair", 0, 1);
+  s.prior_unknown = prior.number("unknown", 0, 1);
+  if (std::fabs(s.prior_no_gap + s.prior_single + s.prior_pair + s.prior_unknown - 1) > 1e-9)
+    file.refuse("prior", "does not sum to 1", "state probabilities that sum to 1");
+
+  const TomlTable effect = file.table("effect");
+  effect.only({"shape_error", "interaction"});
+  s.shape_error = effect.number("shape_error", 0, 1);
+  s.interaction = effect.number("interaction", 0, 10);
+
+  const TomlTable unknown = file.table("unknown");
+  unknown.only({"amplitude_low", "amplitude_high", "floor"});
+  s.unknown_low = unknown.number("amplitude_low", 1e-3, 1e3);
+  s.unknown_high = unknown.number("amplitude_high", s.unknown_low, 1e3);
+  s.unknown_floor = unknown.number("floor", 1e-6, 1);
+
+  const TomlTable verdict = file.table("verdict");
+  verdict.only({"false_alarm", "name_probability", "group_probability", "unknown_probability", "misfit_probability",
+                "draws", "libraries"});
+  s.false_alarm = verdict.number("false_alarm", 1e-4, 0.5);
+  s.name_probability = verdict.number("name_probability", 0.5, 1);
+  s.group_probability = verdict.number("group_probability", 0.5, 1);
+  s.unknown_probability = verdict.number("unknown_probability", 0, 1);
+  s.misfit_probability = verdict.number("misfit_probability", 0, 0.5);
+  s.draws = static_cast<int>(verdict.number("draws", 100, 1e6));
+  s.libraries = static_cast<int>(verdict.number("libraries", 1, 1e4));
+
+  const TomlTable isolability = file.table("isolability");
+  isolability.only({"group_distance", "detectable_distance"});
+  s.group_distance = isolability.number("group_distance", 0, 100);
+  s.detectable_distance = isolability.number("detectable_distance", 0, 100);
+
+  const TomlTable where = file.table("where");
+  where.only({"false_discovery_rate"});
+  s.false_discovery_rate = where.number("false_discovery_rate", 1e-4, 0.5);
+  return s;
+}
+
+}  // namespace vielto::gap

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "gap/library/sources.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <map>
+
+#include "core/bad_input.h"
+#include "gap/library/columns.h"
+#include "gap/library/condition.h"
+
+namespace vielto::gap {
+namespace {
+
+struct Sum {
+  double n = 0, mean = 0, squares = 0;  // Welford
+  void add(double x) {
+    const double step = x - mean;
+    mean += step / ++n;
+    squares += step * (x - mean);
+  }
+  double sd() const { return n > 1 ? std::sqrt(squares / (n - 1)) : 0; }
+};
+
+// Sectors of a paddle's turn; its own angle counts from the y axis towards z, so that the lowest point is at 270 deg.
+constexpr int kSectors = 6;
+constexpr double kLowest = 270;
+
+// Torque of the paddles by sector, from phase_deg,paddle_Nm of phase.csv; empty for the whole drum.
+std::array<double, kSectors> sector_shares(const std::string& path) {
+  std::array<double, kSectors> sums{};
+  double all = 0;
+  bool whole_drum = false;
+  read_columns(path, {"phase_deg", "paddle_Nm"}, [&](int number, const std::vector<std::string_view>& f) {
+    if (f[1].empty()) {
+      whole_drum = true;
+      return;
+    }
+    const double angle = std::fmod(column_number(path, number, "phase_deg", f[0]) - kLowest + 540, 360);  // 180: lowest
+    const double torque = column_number(path, number, "paddle_Nm", f[1]);
+    sums[std::min(kSectors - 1, static_cast<int>(angle / (360.0 / kSectors)))] += torque;
+    all += torque;
+  });
+  if (whole_drum || all == 0) return {};
+  for (double& sum : sums) sum /= all;
+  return sums;
+}
+
+}  // namespace
+
+std::string sources_of_run(const std::string& test, const nlohmann::json& power, const std::string& phase_file) {
+  std::string rows;
+  const auto add = [&](const char* kind, const std::string& source, double torque) {
+    rows += fmt::format("{},{},{},{:.6g}\n", test, kind, source, torque);
+  };
+  for (const auto& [part, torque] : power["parts"].items()) add("part", part, torque["torque_Nm"].get<double>());
+  if (std::filesystem::exists(phase_file)) {
+    const auto shares = sector_shares(phase_file);
+    const double paddles = power["parts"]["paddles"]["torque_Nm"].get<double>();
+    const bool any = std::any_of(shares.begin(), shares.end(), [](double share) { return share != 0; });
+    for (int k = 0; any && k < kSectors; ++k)
+      add("phase", fmt::format("{:g} to {:g} deg", 360.0 / kSectors * k - 180, 360.0 / kSectors * (k + 1) - 180),
+          paddles * shares[k]);
+  }
+  if (power.contains("losses") && power["losses"].is_object())
+    for (const auto& [loss, value] : power["losses"].items())
+      add("loss", loss, value["power_W"].get<double>() / (2 * std::acos(-1) * power["speed"].get<double>()));
+  return rows;
+}
+
+nlohmann::ordered_json sources_json(const Library& library, const std::vector<std::string>& effects) {
+  using json = nlohmann::ordered_json;
+  json result = json::array();
+  const std::string path = (std::filesystem::path(library.folder) / "sources.csv").string();
+  if (!std::filesystem::exists(path)) return result;
+  std::map<std::string, const Observation*> row_of;
+  std::map<std::string, const Run*> run_of;
+  for (const LibraryValue& v : library.values)
+    if (v.row.apparatus == "mixer") row_of[library.runs[v.run].test] = &v.row;
+  for (const Run& r : library.runs) run_of[r.test] = &r;
+
+  // condition -> kind and source -> baseline, and -> effect -> strength -> source
+  using Source = std::pair<std::string, std::string>;
+  struct Place {
+    const Observation* row = nullptr;
+    std::map<Source, Sum> baseline;
+    Sum rotor;
+    std::map<std::string, std::map<double, std::map<Source, Sum>>> effects;
+  };
+  std::map<std::string, Place> places;
+  std::map<std::string, double> rotor_of_run;
+  read_columns(path, {"test", "kind", "source", "torque_Nm"}, [&](int number, const std::vector<std::string_view>& f) {
+    const double torque = column_number(path, number, "torque_Nm", f[3]);
+    const std::string test(f[0]);
+    const Source source(f[1], f[2]);
+    const auto row = row_of.find(test);
+    if (row == row_of.end())
+      throw BadInput(path, number, fmt::format("'{}' is no mixer run of design.csv", test),
+                     "collect the library again");
+    Place& place = places[conditions_text(*row->second)];
+    place.row = row->second;
+    const Run& run = *run_of.at(test);
+    if (run.baseline) {
+      place.baseline[source].add(torque);
+      if (source.first == "part" && source.second != "drum") rotor_of_run[test] += torque;
+    } else if (run.effect != "none") {
+      place.effects[run.effect][run.strength][source].add(torque);
+    }
+  });
+  for (const auto& [test, torque] : rotor_of_run) places[conditions_text(*row_of.at(test))].rotor.add(torque);
+
+  for (const auto& [name, place] : places) {
+    if (!(place.rotor.mean > 0)) continue;
+    const double rotor = place.rotor.mean;
+    for (const auto& [source, baseline] : place.baseline) {
+      json entry = {{"speed", place.row->speed ? json(*place.row->speed) : json()},
+                    {"fill", place.row->fill ? json(*place.row->fill) : json()},
+                    {"kind", source.first},
+                    {"source", source.second},
+                    {"share", baseline.mean / rotor},
+                    {"u", baseline.sd() / std::sqrt(baseline.n) / rotor},
+                    {"effects", json::array()}};
+      for (const std::string& effect : effects) {
+        const auto found = place.effects.find(effect);
+        if (found == place.effects.end()) continue;
+        const auto most =
+            std::max_element(found->second.begin(), found->second.end(),
+                             [](const auto& a, const auto& b) { return std::fabs(a.first) < std::fabs(b.first); });
+        const auto with = most->second.find(source);
+        if (with == most->second.end()) continue;
+        entry["effects"].push_back({{"name", effect},
+                                    {"strength", most->first},
+                                    {"change", (with->second.mean - baseline.mean) / rotor},
+                                    {"u", baseline.sd() * std::sqrt(1 / with->second.n + 1 / baseline.n) / rotor}});
+      }
+      result.push_back(entry);
+    }
+  }
+  return result;
+}
+
+}  // namespace vielto::gap

@@ -1,0 +1,410 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "gap/question/confirm.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <filesystem>
+#include <mutex>
+#include <regex>
+#include <set>
+#include <sstream>
+#include <thread>
+
+#include "core/bad_input.h"
+#include "core/csv.h"
+#include "core/sha256.h"
+#include "gap/library/condition.h"
+#include "gap/library/rig.h"
+
+namespace vielto::gap {
+namespace {
+
+namespace fs = std::filesystem;
+using Eigen::Index;
+using Eigen::VectorXd;
+
+const Effect& effect_named(const Inputs& inputs, const std::string& name) {
+  return *std::find_if(inputs.effects.begin(), inputs.effects.end(), [&](const Effect& e) { return e.name == name; });
+}
+
+std::vector<double> medians(const ModelEvidence& m) {
+  std::vector<double> s;
+  for (std::size_t e = 0; e < m.effects.size(); ++e) s.push_back(m.strength(e).value);
+  return s;
+}
+
+std::vector<std::string> words_of(const std::string& text) {
+  std::vector<std::string> words;
+  std::istringstream in(text);
+  for (std::string word; in >> word;) words.push_back(word);
+  return words;
+}
+
+std::string quoted(const std::string& word) {
+  const char* const plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./=+:,-%@";
+  if (!word.empty() && word.find_first_not_of(plain) == std::string::npos) return word;
+  std::string text = "'";
+  for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return text + "'";
+}
+
+std::string quoted(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : " ") + quoted(word);
+  return text;
+}
+
+// Runs a command in a folder without a shell, what it prints appended to `log`. True if it ended with 0.
+bool runs_well(const std::vector<std::string>& command, const std::string& folder, const std::string& log) {
+  std::vector<char*> words;
+  for (const std::string& word : command) words.push_back(const_cast<char*>(word.c_str()));
+  words.push_back(nullptr);
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_addopen(&actions, 1, fs::absolute(log).c_str(), O_WRONLY | O_CREAT | O_APPEND, 0644);
+  posix_spawn_file_actions_adddup2(&actions, 1, 2);
+  posix_spawn_file_actions_addchdir_np(&actions, folder.c_str());
+  pid_t child = 0;
+  int status = 0;
+  const bool started = posix_spawnp(&child, words[0], &actions, nullptr, words.data(), environ) == 0;
+  posix_spawn_file_actions_destroy(&actions);
+  while (started && waitpid(child, &status, 0) == -1 && errno == EINTR) {
+  }
+  return started && WIFEXITED(status) && WEXITSTATUS(status) == 0;
+}
+
+// -var of the library's own runs of a rig: what its plan says.
+std::map<std::string, std::string> library_settings(const std::string& folder, const std::string& rig,
+                                                    std::vector<std::string>& notes) {
+  std::map<std::string, std::string> settings;
+  const std::string path = (fs::path(folder) / "plan.toml").string();
+  if (!fs::exists(path)) {
+    notes.push_back(
+        fmt::format("the library has no plan.toml that says how its runs of {} were set: they are made as the rig "
+                    "stands, with --var",
+                    rig));
+    return settings;
+  }
+  const TomlTable plan = TomlTable::read(path);
+  if (const toml::array* rigs = plan.raw()["rig"].as_array())
+    for (const toml::node& node : *rigs) {
+      if (!node.is_table()) continue;
+      const TomlTable t(path, *node.as_table());
+      if (t.text("name") != rig || !t.has("settings")) continue;
+      const TomlTable own = t.table("settings");
+      for (const auto& entry : own.raw())
+        settings[std::string(entry.first.str())] = own.text(std::string(entry.first.str()));
+    }
+  return settings;
+}
+
+// What a command simulates: without the folder, and without the taking up of a run that was broken off.
+std::string simulated_by(const std::string& command) {
+  static const std::regex place(" -var (run|resume) [^ ]+");
+  return std::regex_replace(command, place, "");
+}
+
+}  // namespace
+
+Plan plan_confirmation(const Inputs& inputs, const TableModel& model, const Diagnosis& d,
+                       const Isolability& isolability, const std::string& rigs_file, const std::string& root,
+                       const std::string& runs, int seeds, const std::vector<std::string>& extra,
+                       const std::map<std::string, double>& known, std::vector<std::string>& notes) {
+  std::vector<Index> fit_rows;
+  for (std::size_t i = 0; i < model.rows.size(); ++i)
+    if (model.rows[i].role == "fit") fit_rows.push_back(static_cast<Index>(i));
+  const TableModel fit = model.part(fit_rows);
+  Plan plan;
+  const auto add_variant = [&](const std::string& name, const ModelEvidence* m) {
+    Variant v;
+    v.name = name;
+    if (m) {
+      v.effects = m->effects;
+      v.strengths = medians(*m);
+    }
+    if (name != "before" && fit.family_weights.size() > 0)
+      v.parameters = recalibrated_parameters(fit, v.effects, v.strengths);
+    for (const auto& [effect, strength] : known) {
+      v.effects.push_back(effect);
+      v.strengths.push_back(strength);
+    }
+    plan.variants.push_back(v);
+  };
+  add_variant("before", nullptr);
+  add_variant("recalibrated", nullptr);
+  const auto applied = d.applied();
+  if (!applied.empty()) {
+    add_variant("after", d.model(applied.size() == 2 ? applied[0] + "+" + applied[1] : applied[0]));
+    if (const ModelEvidence* placebo = placebo_of(d, isolability)) {
+      add_variant("placebo", placebo);
+      plan.placebo = placebo->name();
+    }
+  }
+
+  // Settings of all runs; what an effect or the family changes starts from them.
+  std::map<std::string, std::string> asked;
+  for (const std::string& setting : extra) {
+    const auto equals = setting.find('=');
+    if (equals == std::string::npos || equals == 0)
+      throw BadInput("--var " + setting, 0, "is no setting", "write --var NAME=VALUE");
+    asked[setting.substr(0, equals)] = setting.substr(equals + 1);
+  }
+  const std::string place = fs::absolute(runs).lexically_normal().string();
+  if (place.find_first_of(" \t\n$") != std::string::npos)
+    throw BadInput(place, 0, "has a blank or a $ in it, at which LIGGGHTS would split it",
+                   "state --runs FOLDER elsewhere");
+  const TomlTable file = TomlTable::read(rigs_file);
+  std::map<std::string, Rig> rigs;
+  std::map<std::string, std::map<std::string, std::string>> settings;
+  for (const Observation& row : model.rows) {
+    if (row.role != "check" || row.apparatus == "bench" || rigs.count(row.apparatus)) continue;
+    const Rig& rig = rigs[row.apparatus] = Rig::read(file, row.apparatus, root);
+    settings[row.apparatus] = library_settings(inputs.library.folder, row.apparatus, notes);
+    for (const auto& [name, value] : asked)
+      if (rig.known.count(name)) settings[row.apparatus][name] = value;
+  }
+  for (const auto& [name, value] : asked) {
+    bool is_known = false;
+    for (const auto& [apparatus, rig] : rigs) {
+      is_known = is_known || rig.known.count(name);
+      if (rig.base.count(name) && !finite_number(value))
+        throw BadInput(fmt::format("--var {}={}", name, value), 0,
+                       fmt::format("is no number, as in.{} has it", apparatus), "state one");
+    }
+    if (!is_known)
+      throw BadInput(fmt::format("--var {}={}", name, value), 0, "is no parameter of the check tests' rigs",
+                     "see cases/*/*.par and materials/*.par");
+  }
+  std::set<std::string> done;
+  std::map<std::string, std::string> alike;  // conditions -> the test whose runs serve all of these
+  for (const Observation& row : model.rows) {
+    if (row.role != "check" || row.apparatus == "bench" || !done.insert(row.test).second) continue;
+    const Rig& rig = rigs[row.apparatus];
+    const std::map<std::string, std::string>& common = settings[row.apparatus];
+    const std::string first = alike.emplace(row.apparatus + " " + conditions_text(row), row.test).first->second;
+    if (first != row.test) {
+      for (PlannedRun& run : plan.runs)
+        if (run.tests.front() == first) run.tests.push_back(row.test);
+      continue;
+    }
+    for (const Variant& v : plan.variants)
+      for (int seed = 1; seed <= seeds; ++seed) {
+        PlannedRun run;
+        run.variant = v.name;
+        run.tests = {row.test};
+        run.apparatus = row.apparatus;
+        run.seed = seed;
+        run.folder = rig.folder;
+        run.files = rig.files;
+        run.resumes = rig.known.count("resume") > 0;
+        run.run = (fs::path(place) / fmt::format("{}-{}-s{}", file_name_of(row.test), v.name, seed)).string();
+        run.command = {"liggghts", "-in", rig.script};
+        const auto var = [&](const std::string& name, const std::string& value) {
+          run.command.insert(run.command.end(), {"-var", name, value});
+        };
+        for (const NamedCondition& c : kConditions) {
+          const auto name = rig.vars.find(c.name);
+          if (name == rig.vars.end() || !(row.*c.member)) continue;
+          double value = *(row.*c.member);
+          for (std::size_t e = 0; e < v.effects.size(); ++e)
+            for (const Transform& t : effect_named(inputs, v.effects[e]).transforms)
+              if (t.operation == Operation::shift && t.condition == c.name && t.apparatus == row.apparatus)
+                value *= 1 + t.factor * v.strengths[e];
+          var(name->second, fmt::format("{:.9g}", value));
+        }
+        std::map<std::string, double> base = rig.base;
+        for (const auto& [name, value] : common)
+          if (const auto number = finite_number(value)) base[name] = *number;
+        for (Index k = 0; k < v.parameters.size(); ++k) {
+          const std::string& name = inputs.library.parameter_names[static_cast<std::size_t>(k)];
+          base[name] = v.parameters[k];
+        }
+        std::map<std::string, std::string> changed = common;
+        for (Index k = 0; k < v.parameters.size(); ++k) {
+          const std::string& name = inputs.library.parameter_names[static_cast<std::size_t>(k)];
+          changed[name] = fmt::format("{:.9g}", base[name]);
+        }
+        for (std::size_t e = 0; e < v.effects.size(); ++e) {
+          if (v.strengths[e] == 0) continue;
+          const Effect& effect = effect_named(inputs, v.effects[e]);
+          for (const auto& [name, value] : rig.settings(effect, v.strengths[e], base)) {
+            changed[name] = value;
+            if (const auto number = finite_number(value)) base[name] = *number;
+          }
+          for (const VarChange& change : effect.vars)
+            if (change.acts_on(row.apparatus) && change.rule == VarRule::switched) {
+              if (known.count(effect.name) && v.strengths[e] != 1)
+                throw BadInput("--known " + effect.name, 0, "is a switch: a run has it wholly or not",
+                               "state strength 1, or leave it a candidate");
+              if (known.count(effect.name) == 0) run.share = v.strengths[e];
+            }
+        }
+        for (const auto& [name, value] : changed) var(name, value);
+        var("seed", fmt::format("{}", seed));
+        var("run", run.run);
+        if (!rig.post.empty()) {
+          run.post = words_of(rig.post);
+          run.post.push_back(run.run);
+        }
+        plan.runs.push_back(run);
+      }
+  }
+  return plan;
+}
+
+std::string file_name_of(const std::string& test) {
+  std::string name = test;
+  for (char& c : name)
+    if (!(c >= '0' && c <= '9') && !(c >= 'a' && c <= 'z') && !(c >= 'A' && c <= 'Z') && c != '.' && c != '_' &&
+        c != '-')
+      c = '_';
+  if (name.front() == '.' || name.front() == '-') name.front() = '_';
+  return name == test ? name : name + "-" + sha256_of_text(test).substr(0, 8);
+}
+
+std::string command_line(const PlannedRun& run) {
+  return fmt::format("(cd {} && {}{})", quoted(run.folder), quoted(run.command),
+                     run.post.empty() ? "" : " && " + quoted(run.post));
+}
+
+void refuse_other_runs(const Plan& plan) {
+  std::map<std::string, std::string> hash_of_path;
+  for (const PlannedRun& run : plan.runs)
+    for (const char* state : {"", ".partial"}) {
+      const std::string folder = run.run + state, description = folder + "/run.json";
+      if (!fs::exists(description)) continue;
+      const nlohmann::json made = read_json(description);
+      const std::string mend = fmt::format("remove {} to run it anew, or state another --runs", folder);
+      if (simulated_by(made.value("command", "")) != simulated_by(fmt::format("{}", fmt::join(run.command, " "))))
+        throw BadInput(description, 0, "the run was made by another command than now planned", mend);
+      std::map<std::string, std::string> hash_of;
+      for (const std::string& file : run.files) {
+        std::string& hash = hash_of_path[file];
+        if (hash.empty()) hash = sha256_of_file(file);
+        hash_of[fs::path(file).filename().string()] = hash;
+      }
+      if (const std::string name = changed_file(made, hash_of); !name.empty())
+        throw BadInput(description, 0, fmt::format("the run was made from another {}", name), mend);
+    }
+}
+
+void run_plan(const Plan& plan, int jobs) {
+  std::vector<PlannedRun> missing;
+  for (const PlannedRun& run : plan.runs) {
+    if (fs::exists(fs::path(run.run) / "post" / "observations.csv")) continue;
+    fs::create_directories(fs::path(run.run).parent_path());
+    PlannedRun now = run;
+    if (fs::exists(fs::path(run.run) / "run.json"))
+      now.command.clear();  // complete, only its rows are missing
+    else if (fs::exists(run.run + ".partial") && !run.resumes)
+      fs::remove_all(run.run + ".partial");
+    else if (fs::exists(run.run + ".partial"))
+      now.command.insert(now.command.end(), {"-var", "resume", "yes"});
+    fs::remove(run.run + ".out");
+    missing.push_back(now);
+  }
+  std::mutex lock;
+  std::size_t next = 0;
+  std::string failed;
+  const auto work = [&] {
+    for (;;) {
+      PlannedRun run;
+      {
+        const std::lock_guard<std::mutex> guard(lock);
+        if (next == missing.size() || !failed.empty()) return;
+        run = missing[next++];
+        fmt::print("{} of {}: {}\n", next, missing.size(), command_line(run));
+        std::fflush(stdout);
+      }
+      const std::string log = run.run + ".out";
+      if ((!run.command.empty() && !runs_well(run.command, run.folder, log)) ||
+          (!run.post.empty() && !runs_well(run.post, run.folder, log))) {
+        const std::lock_guard<std::mutex> guard(lock);
+        if (failed.empty()) failed = fmt::format("a run failed, see {}: {}", log, command_line(run));
+      }
+    }
+  };
+  std::vector<std::thread> workers;
+  for (int k = 0; k < jobs; ++k) workers.emplace_back(work);
+  for (std::thread& w : workers) w.join();
+  if (!failed.empty()) throw std::runtime_error(failed);
+}
+
+Shrink measured_shrink(const Plan& plan, const Inputs& inputs, const TableModel& model, const VectorXd& seed_variance) {
+  // What the seeds show, by variant, test and observable: values and their own standard uncertainties.
+  std::map<std::string, std::vector<std::pair<double, double>>> shown;
+  std::map<std::string, double> share;
+  for (const PlannedRun& run : plan.runs) {
+    const std::string path = (fs::path(run.run) / "post" / "observations.csv").string();
+    if (!fs::exists(path)) throw BadInput(path, 0, "is not there", "run: " + command_line(run));
+    for (const Observation& row : read_reduced_table(path).rows) {
+      for (const std::string& test : run.tests)
+        shown[run.variant + " " + test + " " + row.observable].emplace_back(row.value, row.u);
+    }
+    for (const std::string& test : run.tests) share[run.variant + " " + test] = run.share;
+  }
+  std::vector<Index> at;
+  CheckRows check;
+  for (std::size_t i = 0; i < model.rows.size(); ++i)
+    if (model.rows[i].role == "check" && model.rows[i].apparatus != "bench") {
+      at.push_back(static_cast<Index>(i));
+      check.tests.push_back(model.rows[i].test);
+    }
+  check.observed = model.observed(at);
+  check.noise = model.noise(at, at);
+  const Index n = static_cast<Index>(at.size());
+  // Mean over the seeds and its variance: what the run itself says, what seeds of the library scatter by, and what
+  // these seeds do, whichever is largest.
+  const auto mean = [&](const std::string& variant, const Observation& row, double scatter) {
+    const auto found = shown.find(variant + " " + row.test + " " + row.observable);
+    if (found == shown.end())
+      throw BadInput("runs of " + variant, 0, fmt::format("test '{}' shows no {}", row.test, row.observable),
+                     "the rig must write it to post/observations.csv");
+    const double k = static_cast<double>(found->second.size());
+    double sum = 0, own = 0, squares = 0;
+    for (const auto& [value, u] : found->second) sum += value / k, own += u * u / k;
+    for (const auto& [value, u] : found->second) squares += std::pow(value - sum, 2);
+    return std::pair(sum, std::max({own, scatter, k > 1 ? squares / (k - 1) : 0.0}) / k);
+  };
+  std::map<std::string, SimulatedRows> simulated;
+  for (const Variant& v : plan.variants) {
+    SimulatedRows s{VectorXd(n), VectorXd(n)};
+    for (Index i = 0; i < n; ++i) {
+      const Observation& row = model.rows[static_cast<std::size_t>(at[i])];
+      auto [y, variance] = mean(v.name, row, seed_variance[at[i]]);
+      const double part = share.at(v.name + " " + row.test);
+      if (part != 1) {
+        const auto [without, its] = mean("recalibrated", row, seed_variance[at[i]]);
+        y = part * y + (1 - part) * without;
+        variance = part * part * variance + (1 - part) * (1 - part) * its;
+      }
+      for (std::size_t e = 0; e < v.effects.size(); ++e) {
+        const Transform* t = effect_named(inputs, v.effects[e]).transform_of(row.apparatus, row.observable);
+        if (!t || t->operation == Operation::shift) continue;
+        const double g = t->amount(row, v.strengths[e]);
+        const double factor = t->operation == Operation::scale ? 1 + g
+                              : t->operation == Operation::add ? 1
+                                                               : std::exp(g);
+        y = t->operation == Operation::add ? y + g : y * factor;
+        variance *= factor * factor;
+      }
+      s.value[i] = y;
+      s.u[i] = std::sqrt(variance);
+    }
+    simulated[v.name] = s;
+  }
+  const SimulatedRows& recalibrated = simulated.at("recalibrated");
+  const auto of = [&](const char* name) { return simulated.count(name) ? simulated.at(name) : recalibrated; };
+  Shrink s = shrink_of(check, simulated.at("before"), recalibrated, of("after"), of("placebo"));
+  s.placebo_name = plan.placebo;
+  return s;
+}
+
+}  // namespace vielto::gap

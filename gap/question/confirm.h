@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Purpose: the proof. The check tests are simulated again with the effect at its estimated strength; beside it, on the
+// same tests, the baseline, recalibration alone, and a placebo (the best effect from outside the group).
+//
+// A plan holds one `liggghts -in ... -var ...` for every check test, variant and seed (libraries/rigs.toml says how a
+// test becomes a run). Effects on the measurement chain need no run of their own: they transform what the recalibrated
+// baseline shows; a shift of a condition is a run at the shifted condition. Runs that are complete (run.json there) are
+// not made again; one that was made by another command or from other files is refused, complete or not. `effects` are
+// simulated at their median strengths together with the parameters of the family that fit best with them. Check tests
+// under equal conditions share their runs.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "gap/question/inputs.h"
+#include "gap/verdict/diagnosis.h"
+
+namespace vielto::gap {
+
+struct PlannedRun {
+  std::string variant;  // before, recalibrated, after, placebo
+  std::string apparatus;
+  std::vector<std::string> tests;  // the check tests whose conditions it has
+  int seed = 1;
+  std::string folder;  // where it is started
+  std::string run;     // run folder
+  std::vector<std::string> command;
+  std::vector<std::string> files;  // it is made from, besides
+  std::vector<std::string> post;   // command after it; empty: none
+  bool resumes = false;            // the rig takes up a run that was broken off; others begin anew
+  double share = 1;                // of a switched effect: part of the way from the recalibrated run to this one
+};
+
+struct Variant {
+  std::string name;
+  std::vector<std::string> effects;
+  std::vector<double> strengths;
+  Eigen::VectorXd parameters;  // empty: the baseline's own
+};
+
+struct Plan {
+  std::vector<Variant> variants;
+  std::vector<PlannedRun> runs;
+  std::string placebo;
+};
+
+// Runs have the settings that the library's own runs of the rig have (plan.toml in the library's folder; `notes` says
+// so if there is none), so that what is confirmed is the baseline that was diagnosed. `root`: the folder that
+// libraries/rigs.toml's paths start from; `runs`: where the run folders go; `extra`: further NAME=VALUE, for all rigs
+// that have such a -var; `known`: effects that every run has. Errors: BadInput for a rig without an entry, a script
+// that is not there, a setting that no rig has or whose value is no number where the rig states one, and a blank in the
+// path of the runs, at which LIGGGHTS would split it.
+Plan plan_confirmation(const Inputs& inputs, const TableModel& model, const Diagnosis& diagnosis,
+                       const Isolability& isolability, const std::string& rigs, const std::string& root,
+                       const std::string& runs, int seeds, const std::vector<std::string>& extra,
+                       const std::map<std::string, double>& known, std::vector<std::string>& notes);
+
+// A test's name as a file's: letters, digits, '.', '_' and '-' as they are, else '_' and a hash of the name.
+std::string file_name_of(const std::string& test);
+
+// A command line for a shell, every word quoted that needs it.
+std::string command_line(const PlannedRun& run);
+
+// Errors: BadInput naming a run folder that is there and was made by another command or from other files.
+void refuse_other_runs(const Plan& plan);
+
+// Runs what is missing, `jobs` at a time. Errors: std::runtime_error naming the command that failed; what has begun
+// ends first.
+void run_plan(const Plan& plan, int jobs);
+
+// The measured shrink. `seed_variance` of a single run at each row of the model. Errors: BadInput naming a run whose
+// observations are missing.
+Shrink measured_shrink(const Plan& plan, const Inputs& inputs, const TableModel& model,
+                       const Eigen::VectorXd& seed_variance);
+
+}  // namespace vielto::gap

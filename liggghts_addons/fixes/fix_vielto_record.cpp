@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "fixes/fix_vielto_record.h"
+
+#include <mpi.h>
+
+#include <cmath>
+#include <random>
+
+#include "atom.h"
+#include "error.h"
+#include "fix_gravity.h"
+#include "fix_mesh_surface.h"
+#include "mesh_module_stress.h"
+#include "modify.h"
+#include "update.h"
+#include "vielto_stop.h"
+
+using namespace LAMMPS_NS;
+
+namespace {
+
+double dot3(const double* a, const double* b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+void cross3(const double* a, const double* b, double* c) {
+  c[0] = a[1] * b[2] - a[2] * b[1];
+  c[1] = a[2] * b[0] - a[0] * b[2];
+  c[2] = a[0] * b[1] - a[1] * b[0];
+}
+
+}  // namespace
+
+FixViEltoRecord::FixViEltoRecord(LAMMPS* lammps, int narg, char** arg) : FixViEltoRows(lammps, narg, arg) {
+  size_vector = 5;
+  const auto three = [&](int i, double* to) {
+    if (i + 3 >= narg) error->fix_error(FLERR, this, (std::string(arg[i]) + " takes three numbers").c_str());
+    for (int d = 0; d < 3; d++) to[d] = number(arg, i + 1 + d);
+    return 3;
+  };
+  Keywords own;
+  own["speed"] = [&](int i) { return speed_ = number(arg, i + 1), 1; };
+  own["axis"] = [&](int i) { return three(i, axis_); };
+  own["origin"] = [&](int i) { return three(i, origin_); };
+  own["each"] = [&](int i) { return read_each(arg[i + 1]); };
+  own["idle"] = [&](int i) {
+    double values[3];
+    three(i, values);
+    idle_ = values[0], idleNoise_ = values[1], idleSeed_ = static_cast<int>(values[2]);
+    return 3;
+  };
+  own["maxTorque"] = [&](int i) { return maxTorque_ = number(arg, i + 1), 1; };
+  own["turns"] = [&](int i) { return turns_ = number(arg, i + 1), 1; };
+  own["energy"] = [&](int i) { return read_energy(arg[i + 1]); };
+  parse(narg, arg, own);
+  if (!(speed_ >= 0)) error->fix_error(FLERR, this, "speed n >= 0 is required");
+  const double length = std::sqrt(dot3(axis_, axis_));
+  if (!(length > 0)) error->fix_error(FLERR, this, "axis has no length");
+  for (double& a : axis_) a /= length;
+}
+
+int FixViEltoRecord::read_each(const char* name) {
+  bool found = false;
+  for (Part& part : parts_)
+    if (part.name == name) part.each = found = true;
+  if (!found) error->fix_error(FLERR, this, "keyword each names no part given before it");
+  return 1;
+}
+
+int FixViEltoRecord::read_energy(const std::string& value) {
+  if (value != "on" && value != "off") error->fix_error(FLERR, this, "energy takes on or off");
+  energy_ = value == "on";
+  return 1;
+}
+
+void FixViEltoRecord::init() {
+  FixViEltoRows::init();
+  if (energy_ && vielto::stock_law())
+    vielto::stop_all(lmp, "vielto: energy accounts are kept by the laws vielto and cohfrict only; leave energy off");
+}
+
+void FixViEltoRecord::pre_force(int vflag) {
+  FixViEltoRows::pre_force(vflag);
+  tally_.energy = energy_;
+}
+
+void FixViEltoRecord::add_step() {
+  double rotor = 0;
+  for (Part& part : parts_) {
+    add_force(part);
+    double partTorque = 0;
+    for (Mesh& mesh : part.meshes) {
+      double reference[3] = {0, 0, 0};
+      auto* point = mesh.fix->triMesh()->prop().getGlobalProperty<VectorContainer<double, 3>>("p_ref");
+      if (point) point->get(0, reference);
+      double F[3], T[3], arm[3], moved[3];
+      for (int d = 0; d < 3; d++) {
+        F[d] = mesh.stress->f_total(d);
+        T[d] = mesh.stress->torque_total(d);
+        arm[d] = reference[d] - origin_[d];
+      }
+      cross3(arm, F, moved);
+      const double torque = -(dot3(T, axis_) + dot3(moved, axis_));
+      mesh.torque += torque;
+      partTorque += torque;
+    }
+    part.torque += partTorque;
+    if (part.name != "drum") rotor += partTorque;
+    check_torque(part, partTorque);
+  }
+  work_ += rotor * 2 * M_PI * speed_ * update->dt;
+  if (sampling()) gravity_ += gravity_moment();
+}
+
+void FixViEltoRecord::check_torque(const Part& part, double torque) const {
+  if (!(maxTorque_ > 0) || std::fabs(torque) <= maxTorque_) return;
+  struct {
+    double force;
+    int grain;
+  } mine = {tally_.wallForce, tally_.wallGrain}, most;
+  MPI_Allreduce(&mine, &most, 1, MPI_DOUBLE_INT, MPI_MAXLOC, world);
+  char line[400];
+  snprintf(line, sizeof line,
+           "vielto: step " BIGINT_FORMAT
+           " (turn %.3f): torque of %s is %.4g N m, over the limit of %.4g N m (maxTorque); the "
+           "greatest wall force, %.4g N, acts on grain %d",
+           update->ntimestep, turn(), part.name.c_str(), torque, maxTorque_, most.force, most.grain);
+  vielto::stop_all(lmp, line);
+}
+
+double FixViEltoRecord::gravity_moment() const {
+  FixGravity* fix = static_cast<FixGravity*>(modify->find_fix_style("gravity", 0));
+  if (!fix) return 0;
+  double g[3], moment = 0;
+  fix->get_gravity(g);
+  for (int i = 0; i < atom->nlocal; i++) {
+    double arm[3], m[3];
+    for (int d = 0; d < 3; d++) arm[d] = atom->x[i][d] - origin_[d];
+    cross3(arm, g, m);
+    moment += atom->rmass[i] * dot3(m, axis_);
+  }
+  return moment;
+}
+
+double FixViEltoRecord::potential_energy() const {
+  FixGravity* fix = static_cast<FixGravity*>(modify->find_fix_style("gravity", 0));
+  double g[3] = {0, 0, 0}, sum = 0;
+  if (fix) fix->get_gravity(g);
+  for (int i = 0; i < atom->nlocal; i++) sum -= atom->rmass[i] * dot3(atom->x[i], g);
+  return total(sum);
+}
+
+std::string FixViEltoRecord::when() const {
+  char text[40];
+  snprintf(text, sizeof text, "turn %.3f", turn());
+  return text;
+}
+
+void FixViEltoRecord::clear_interval() {
+  FixViEltoRows::clear_interval();
+  for (Part& part : parts_) {
+    part.torque = 0;
+    for (Mesh& mesh : part.meshes) mesh.torque = 0;
+  }
+  gravity_ = 0;
+}
+
+std::string FixViEltoRecord::header_end() {
+  char speed[40];
+  snprintf(speed, sizeof speed, "# speed=%.10g\n", speed_);
+  std::string text = std::string(speed) + "step,time_s,turn,idle_Nm";
+  for (const Part& part : parts_) text += "," + part.name + "_Nm";
+  for (const Part& part : parts_)
+    for (const char* d : {"x", "y", "z"}) text += "," + part.name + "_F" + d + "_N";
+  for (const Part& part : parts_) {
+    if (!part.each) continue;
+    std::string single = part.name;
+    if (!single.empty() && single.back() == 's') single.pop_back();
+    for (std::size_t k = 1; k <= part.meshes.size(); k++) text += "," + single + std::to_string(k) + "_Nm";
+  }
+  text += ",gravity_Nm,overlap_mean,overlap_max,contacts,grains,kinetic_J";
+  if (energy_)
+    text +=
+        ",work_J,elastic_J,potential_J,diss_normal_J,diss_tangential_J,diss_sliding_J,diss_rolling_J,diss_twisting_J";
+  return text;
+}
+
+std::string FixViEltoRecord::row() {
+  lastRotor_ = lastDrum_ = 0;
+  for (const Part& part : parts_) (part.name == "drum" ? lastDrum_ : lastRotor_) += part.torque / steps_;
+
+  const std::mt19937::result_type key[2] = {static_cast<std::mt19937::result_type>(idleSeed_),
+                                            static_cast<std::mt19937::result_type>(update->ntimestep / every_)};
+  std::seed_seq seed(key, key + 2);
+  std::mt19937 random(seed);
+  const double idle = idle_ * (1 + idleNoise_ * std::normal_distribution<double>()(random));
+
+  std::vector<double> values = {elapsed(), turn(), idle};
+  for (const Part& part : parts_) values.push_back(part.torque / steps_);
+  for (const Part& part : parts_)
+    for (double f : part.force) values.push_back(f / steps_);
+  for (const Part& part : parts_)
+    if (part.each)
+      for (const Mesh& mesh : part.meshes) values.push_back(mesh.torque / steps_);
+  values.push_back(samples_ ? total(gravity_) / samples_ : 0);
+  for (double value : overlaps()) values.push_back(value);
+  values.push_back(kinetic_energy());
+  if (energy_)
+    for (double value :
+         {work_, total(tally_.elastic), potential_energy(), total(tally_.normalDamping),
+          total(tally_.tangentialDamping), total(tally_.sliding), total(tally_.rolling), total(tally_.twisting)})
+      values.push_back(value);
+  return columns(values);
+}
+
+std::string FixViEltoRecord::progress() {
+  if (!(turns_ > 0)) return "";
+  char line[100];
+  snprintf(line, sizeof line, "turn %.2f of %.2f, rotor %.3f N m", turn(), turns_, lastRotor_);
+  return line;
+}
+
+double FixViEltoRecord::compute_vector(int n) {
+  const double values[5] = {turn(), lastRotor_, lastDrum_, overlapMaxEver_, dtOverTc_};
+  return values[n];
+}

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/* Records torque and force of the parts of a rotating machine, and stops the run when its numbers cannot be trusted.
+
+     fix ID all vielto/record every N file F speed n part NAME MESHFIX... [part ...] [keywords]
+       every, file, part, dtLimit, header   see fix_vielto_rows.h; `drum` as NAME is the static part
+       speed n               1/s; the rotation starts when this fix is made
+       axis x y z            axis of rotation through `origin`, default 1 0 0
+       origin x y z          default 0 0 0
+       each NAME             one torque column more for each mesh of that part (NAME without its s, numbered)
+       idle T NOISE SEED     torque of the idling model, N m, and the relative standard deviation of its noise per row
+       maxTorque T           stop when a part's torque in any step exceeds T, N m; default 0: no limit
+       energy on|off         energy accounts (columns work_J ... ); default off
+       turns T               length of the run in turns, for the progress line; 0: no progress line
+
+   Torque columns: torque that the part exerts on the grains about the axis in the direction of rotation (positive: the
+   drive supplies); force columns: force that the part exerts on the grains. Includes rolling and twisting couples.
+   Global vector: 1 turn, 2 rotor torque of the last row, 3 drum torque of it, 4 greatest overlap so far, 5 dt over the
+   shortest half period. */
+#ifdef FIX_CLASS
+FixStyle(vielto / record, FixViEltoRecord)
+#else
+#ifndef LMP_FIX_VIELTO_RECORD_H
+#define LMP_FIX_VIELTO_RECORD_H
+
+#include "fixes/record_base.h"
+
+namespace LAMMPS_NS {
+
+class FixViEltoRecord : public FixViEltoRows {
+ public:
+  FixViEltoRecord(class LAMMPS*, int, char**);
+  void init() override;
+  void pre_force(int) override;
+  double compute_vector(int) override;
+
+ protected:
+  void add_step() override;
+  std::string header_end() override;
+  std::string row() override;
+  void clear_interval() override;
+  std::string when() const override;
+  std::string progress() override;
+  std::vector<double> state() override { return {work_}; }
+  void set_state(const double* list) override { work_ = list[0]; }
+
+ private:
+  int read_each(const char* name);
+  int read_energy(const std::string& value);
+  double gravity_moment() const;
+  double potential_energy() const;
+  void check_torque(const Part&, double torque) const;
+  double turn() const { return elapsed() * speed_; }
+
+  double speed_ = 0;
+  double axis_[3] = {1, 0, 0};
+  double origin_[3] = {0, 0, 0};
+  double idle_ = 0, idleNoise_ = 0;
+  int idleSeed_ = 1;
+  double maxTorque_ = 0;
+  bool energy_ = false;
+  double turns_ = 0;
+
+  double gravity_ = 0;  // sum of samples, N m
+  double work_ = 0;     // of the rotor on the grains since the start, J
+  double lastRotor_ = 0, lastDrum_ = 0;
+};
+
+}  // namespace LAMMPS_NS
+#endif
+#endif

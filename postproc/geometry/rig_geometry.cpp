@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "geometry/rig_geometry.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/bad_input.h"
+
+namespace vielto {
+
+double GeometryInput::number(const std::string& name) {
+  const double value = file_.number(name);
+  used_.push_back({name, file_.text(name), false});
+  return value;
+}
+
+double GeometryInput::positive(const std::string& name) {
+  const double value = number(name);
+  if (value <= 0) refuse(name, "not above 0", "state a value above 0");
+  return value;
+}
+
+double GeometryInput::not_negative(const std::string& name) {
+  const double value = number(name);
+  if (value < 0) refuse(name, "negative", "state a value of 0 or more");
+  return value;
+}
+
+int GeometryInput::count(const std::string& name, int least, int most) {
+  const int value = file_.integer(name);
+  used_.push_back({name, file_.text(name), false});
+  if (value < least || value > most) refuse(name, "out of range", fmt::format("state {} to {}", least, most));
+  return value;
+}
+
+const std::string& GeometryInput::choice(const std::string& name, const std::vector<std::string>& choices) {
+  const std::string& value = file_.text(name);
+  if (std::find(choices.begin(), choices.end(), value) == choices.end())
+    refuse(name, "unknown", fmt::format("state one of: {}", fmt::join(choices, ", ")));
+  used_.push_back({name, value, true});
+  return value;
+}
+
+void GeometryInput::refuse(const std::string& name, const std::string& what, const std::string& mend) const {
+  int line = 0;
+  for (const Parameter& p : file_.all())
+    if (p.name == name) line = p.line;
+  throw BadInput(file_.path(), line, fmt::format("'{}' {}: {}", name, file_.text(name), what), mend);
+}
+
+RigGeometry rig_geometry(GeometryInput& input) {
+  const std::string& rig = input.choice("rig", {"mixer", "shearbox", "repose", "drum"});
+  RigGeometry geometry = rig == "mixer"      ? mixer_geometry(input)
+                         : rig == "shearbox" ? shearbox_geometry(input)
+                         : rig == "repose"   ? repose_geometry(input)
+                                             : drum_geometry(input);
+  std::size_t triangles = 0;
+  for (const Part& part : geometry.parts) {
+    triangles += part.triangles.size();
+    const double angle = measure(part.triangles).smallest_angle * 180 / kPi;
+    if (angle < 0.5)  // LIGGGHTS warns below 0.5 degrees and stops below 0.26
+      throw BadInput(input.path(), 0,
+                     fmt::format("the mesh '{}' has a triangle with an angle of {:.3f} deg", part.name, angle),
+                     "use fewer chords, or change the lengths that leave a sliver");
+  }
+  geometry.derived.emplace_back("triangles", fmt::format("{}", triangles));
+  return geometry;
+}
+
+}  // namespace vielto

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "rigs/drum/bed_angle.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <stdexcept>
+
+#include "core/bad_input.h"
+#include "core/record_file.h"
+
+namespace vielto {
+namespace {
+
+struct Look {
+  BedHeader header;
+  int frames = 0;
+  double turn = 0;
+  std::vector<Grain> grains;
+};
+
+Look read_look(const std::string& path) {
+  RecordFile file(path, "a run folder or its bed_1.csv");
+  const Keys& keys = file.keys();
+  if (keys.integer("schema", 0) != 1)
+    throw BadInput(path, keys.line("schema"), "the schema is not 1",
+                   "write the record with this package's own version");
+  Look look;
+  BedHeader& h = look.header;
+  h.speed = keys.number("speed", 0, true);
+  h.fill = keys.number("fill", 0, true);
+  h.tilt = keys.number("tilt", 0);
+  h.drum_diameter = keys.number("drum_diameter", 0, true);
+  h.drum_length = keys.number("drum_length", 0, true);
+  h.grain_diameter = keys.number("grain_diameter", 0, true);
+  h.youngs_modulus = keys.number("youngs_modulus", 0, true);
+  h.dt_over_tc = keys.number("dt_over_tc", 0);
+  h.seed = keys.text("seed");
+  h.material = keys.text("material");
+  h.wall = keys.text("wall");
+  h.provisional = keys.integer("provisional", 0) != 0;
+  look.frames = keys.integer("frames", 1);
+  look.turn = keys.number("turn", 0);
+  look.grains = read_grains(file, path);
+  return look;
+}
+
+}  // namespace
+
+BedAngle read_bed_angle(const std::string& path) {
+  const auto folder = std::filesystem::path(path).parent_path();
+  BedAngle bed;
+  int frames = 1;
+  std::vector<Estimate> angles;
+  for (int k = 1; k <= frames; ++k) {
+    const std::string file = (folder / fmt::format("bed_{}.csv", k)).string();
+    Look look = read_look(file);
+    if (k == 1) {
+      bed.header = look.header;
+      bed.grains = look.grains.size();
+      frames = look.frames;
+    } else if (look.header.seed != bed.header.seed || look.header.tilt != bed.header.tilt ||
+               look.grains.size() != bed.grains || look.frames != frames || !(look.turn > bed.looks.back().turn)) {
+      throw BadInput(file, 0, "is not of the run that bed_1.csv is of", "run the case again");
+    }
+    std::vector<Grain> seen;
+    for (const Grain& g : look.grains)
+      if (bed.header.tilt == 0 || g.x[0] < kEndDiameters * bed.header.grain_diameter) seen.push_back(g);
+    try {
+      angles.push_back(drum_surface_angle(seen, bed.header.drum_diameter / 2));
+    } catch (const std::invalid_argument& e) {
+      throw BadInput(file, 0, e.what(), "use finer grains or more fill");
+    }
+    bed.looks.push_back({look.turn, angles.back()});
+    bed.last = std::move(seen);
+  }
+  bed.angle = over_time(angles);
+  return bed;
+}
+
+}  // namespace vielto

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "rigs/drum/bed_output.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/quality_limits.h"
+
+namespace vielto {
+namespace {
+
+// An observation's u must be above 0; an angle is not known better than this from any bed of grains, deg.
+constexpr double kLeastU = 1e-6;
+
+}  // namespace
+
+nlohmann::ordered_json bed_json(const BedAngle& bed) {
+  const BedHeader& h = bed.header;
+  return {
+      {"schema", 1},
+      {"rig", "drum"},
+      {"material", h.material},
+      {"provisional", h.provisional},
+      {"wall", h.wall},
+      {"seed", h.seed},
+      {"speed_1_s", h.speed},
+      {"fill", h.fill},
+      {"tilt_deg", h.tilt},
+      {"drum_diameter_m", h.drum_diameter},
+      {"drum_length_m", h.drum_length},
+      {"grain_diameter_m", h.grain_diameter},
+      {"youngs_modulus_Pa", h.youngs_modulus},
+      {"grains", bed.grains},
+      {"angle_deg", bed.angle.value},
+      {"angle_u_deg", bed.angle.u},
+      {"looks", bed.looks.size()},
+      {"dt_over_tc", h.dt_over_tc},
+  };
+}
+
+std::string bed_table(const BedAngle& bed) {
+  const BedHeader& h = bed.header;
+  std::string text = fmt::format("{}{} in a drum of {}, {} grains of {} mm, fill {}, {} 1/s, tilt {} deg, seed {}\n\n",
+                                 h.material, h.provisional ? " (provisional)" : "", h.wall, bed.grains,
+                                 1e3 * h.grain_diameter, h.fill, h.speed, h.tilt, h.seed);
+  text += fmt::format("  {:<44}{:>12}{:>12}  {}\n", "bed", "value", "u (k=1)", "unit");
+  text += fmt::format("  {:<44}{:>12.5g}{:>12.2g}  deg\n", "dynamic angle of the free surface", bed.angle.value,
+                      bed.angle.u);
+  for (const BedLook& look : bed.looks)
+    text += fmt::format("  {:<44}{:>12.5g}{:>12.2g}  deg\n", fmt::format("  after {:.3f} turns", look.turn),
+                        look.angle.value, look.angle.u);
+  text += fmt::format("  {:<44}{:>12.5g}{:>12}  1, limit {}\n", "time step over t_c", h.dt_over_tc, "", kMostDtOverTc);
+  return text;
+}
+
+std::string bed_looks_csv(const BedAngle& bed) {
+  std::string text = "turn,angle_deg,u_deg\n";
+  for (const BedLook& look : bed.looks)
+    text += fmt::format("{:.9g},{:.9g},{:.9g}\n", look.turn, look.angle.value, look.angle.u);
+  return text;
+}
+
+std::vector<Observation> bed_observations(const BedAngle& bed, const TestLabel& label) {
+  const BedHeader& h = bed.header;
+  Observation row;
+  row.test = label.test;
+  row.role = label.role;
+  row.apparatus = "drum";
+  row.observable = "angle";
+  row.value = bed.angle.value;
+  row.u = std::max(bed.angle.u, kLeastU);
+  row.unit = *observable_unit("drum", "angle");
+  row.speed = h.speed;
+  row.fill = h.fill;
+  row.tilt = h.tilt;
+  row.moisture = label.moisture;
+  row.wall = label.wall.empty() ? h.wall : label.wall;
+  row.material = h.material;
+  return {row};
+}
+
+}  // namespace vielto

@@ -1,0 +1,266 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include <fmt/format.h>
+#include <vtkActor.h>
+#include <vtkCamera.h>
+#include <vtkColorTransferFunction.h>
+#include <vtkDataArray.h>
+#include <vtkDoubleArray.h>
+#include <vtkGlyph3DMapper.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkPolyDataMapper.h>
+#include <vtkPolyDataReader.h>
+#include <vtkProperty.h>
+#include <vtkRenderWindow.h>
+#include <vtkRenderer.h>
+#include <vtkSTLReader.h>
+#include <vtkScalarBarActor.h>
+#include <vtkSphereSource.h>
+#include <vtkTextActor.h>
+#include <vtkTextProperty.h>
+#include <vtkTransform.h>
+#include <vtkTransformPolyDataFilter.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <optional>
+
+#include "core/bad_input.h"
+#include "picture/render.h"
+#include "rigs/picture.h"
+
+namespace vielto {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kWidth = 1600, kHeight = 1000;
+
+struct Dump {
+  fs::path path;
+  long step = -1;
+};
+
+// The dump of the latest step: NAME_STEP.vtk or NAME_STEP.stl; LIGGGHTS writes the box beside it as
+// NAME_boundingBox_STEP.vtk.
+std::optional<Dump> last_dump(const fs::path& folder, const char* type) {
+  std::optional<Dump> last;
+  std::error_code missing;
+  for (const auto& file : fs::directory_iterator(folder, missing)) {
+    const std::string name = file.path().stem().string();
+    if (file.path().extension() != type || name.find("boundingBox") != std::string::npos) continue;
+    const auto digits = name.find_last_not_of("0123456789") + 1;
+    if (digits == name.size()) continue;
+    const long step = std::stol(name.substr(digits));
+    if (!last || step > last->step) last = Dump{file.path(), step};
+  }
+  return last;
+}
+
+// A heap's cylinder has been lifted off it, and the fixed grains of a rough base (centres under z = 0) would hide it.
+bool is_heap(const fs::path& run) { return fs::exists(run / "heap.csv"); }
+
+// Grains with the point data `speed`, m/s, and `diameter`, m; with `over_base` those with their centres over z = 0.
+vtkNew<vtkPolyData> read_grains(const fs::path& path, bool over_base) {
+  vtkNew<vtkPolyDataReader> reader;
+  reader->SetFileName(path.c_str());
+  reader->ReadAllFieldsOn();
+  if (reader->IsFilePolyData()) reader->Update();
+  vtkPointData* data = reader->GetOutput()->GetPointData();
+  vtkDataArray* const radius = data->GetArray("radius");
+  vtkDataArray* const v = data->GetArray("v");
+  if (!radius || !v || v->GetNumberOfComponents() != 3)
+    throw BadInput(path.string(), 0, "holds no grains with radius and velocity",
+                   "dump with 'custom/vtk ... id type x y z vx vy vz radius'");
+  vtkNew<vtkDoubleArray> speed, diameter;
+  speed->SetName("speed");
+  diameter->SetName("diameter");
+  vtkNew<vtkPoints> centres;
+  for (vtkIdType i = 0; i < radius->GetNumberOfTuples(); ++i) {
+    const double* const x = reader->GetOutput()->GetPoint(i);
+    if (over_base && x[2] < 0) continue;
+    centres->InsertNextPoint(x);
+    const double* u = v->GetTuple3(i);
+    speed->InsertNextValue(std::hypot(u[0], u[1], u[2]));
+    diameter->InsertNextValue(2 * radius->GetTuple1(i));
+  }
+  vtkNew<vtkPolyData> grains;
+  grains->SetPoints(centres);
+  grains->GetPointData()->AddArray(speed);
+  grains->GetPointData()->AddArray(diameter);
+  return grains;
+}
+
+// From dark blue over green to yellow, even in lightness: readable in grey and with any colour vision.
+vtkNew<vtkColorTransferFunction> speed_colours(double most) {
+  vtkNew<vtkColorTransferFunction> colours;
+  colours->SetColorSpaceToLab();
+  colours->AddRGBPoint(0.00 * most, 0.267, 0.005, 0.329);
+  colours->AddRGBPoint(0.25 * most, 0.229, 0.322, 0.546);
+  colours->AddRGBPoint(0.50 * most, 0.128, 0.567, 0.551);
+  colours->AddRGBPoint(0.75 * most, 0.369, 0.789, 0.383);
+  colours->AddRGBPoint(1.00 * most, 0.993, 0.906, 0.144);
+  return colours;
+}
+
+vtkNew<vtkActor> part_actor(const fs::path& path, double degrees, double opacity) {
+  vtkNew<vtkSTLReader> reader;
+  reader->SetFileName(path.c_str());
+  vtkNew<vtkTransform> rotation;
+  rotation->RotateX(degrees);
+  vtkNew<vtkTransformPolyDataFilter> turn;
+  turn->SetTransform(rotation);
+  turn->SetInputConnection(reader->GetOutputPort());
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputConnection(turn->GetOutputPort());
+  vtkNew<vtkActor> actor;
+  actor->SetMapper(mapper);
+  actor->GetProperty()->SetColor(0.72, 0.74, 0.78);
+  actor->GetProperty()->SetAmbient(0.25);
+  actor->GetProperty()->SetOpacity(opacity);
+  return actor;
+}
+
+vtkNew<vtkTextActor> caption(const std::string& text, int size, double x, double y) {
+  vtkNew<vtkTextActor> actor;
+  actor->SetInput(text.c_str());
+  actor->GetTextProperty()->SetFontSize(size);
+  actor->GetTextProperty()->SetColor(0.1, 0.1, 0.1);
+  actor->SetPosition(x, y);
+  return actor;
+}
+
+// The parts of the rig: the drum translucent, the rest turned about the x axis by `degrees`. Without an angle the parts
+// are where the last dump of meshes has them, or where they began, all of them translucent but for the rotor. False if
+// there is none.
+bool add_parts(vtkRenderer* renderer, const fs::path& run, std::optional<double> degrees) {
+  constexpr double kDrum = 0.18, kAnyPart = 0.4;
+  if (const auto moved = last_dump(run / "vtk", ".stl"); moved && !degrees) {
+    renderer->AddActor(part_actor(moved->path, 0, kAnyPart));
+    return true;
+  }
+  bool any = false;
+  std::error_code missing;
+  for (const auto& file : fs::directory_iterator(run / "mesh", missing)) {
+    if (file.path().extension() != ".stl" || (is_heap(run) && file.path().stem() == "cylinder")) continue;
+    const bool drum = file.path().stem() == "drum";
+    renderer->AddActor(part_actor(file.path(), drum ? 0 : degrees.value_or(0), drum ? kDrum : degrees ? 1 : kAnyPart));
+    any = true;
+  }
+  return any;
+}
+
+// True if they are coloured by speed; grains at rest have none worth a colour.
+bool add_grains(vtkRenderer* renderer, vtkPolyData* grains) {
+  constexpr double kRest = 1e-3;  // m/s
+  double range[2] = {0, 0};
+  grains->GetPointData()->GetArray("speed")->GetRange(range);
+  const bool moving = range[1] > kRest;
+  const auto colours = speed_colours(moving ? range[1] : 1);
+  vtkNew<vtkSphereSource> sphere;
+  sphere->SetRadius(0.5);
+  sphere->SetThetaResolution(20);
+  sphere->SetPhiResolution(20);
+  vtkNew<vtkGlyph3DMapper> spheres;
+  spheres->SetInputData(grains);
+  spheres->SetSourceConnection(sphere->GetOutputPort());
+  spheres->SetScaleModeToScaleByMagnitude();
+  spheres->SetScaleArray("diameter");
+  spheres->SetScalarModeToUsePointFieldData();
+  spheres->SelectColorArray("speed");
+  spheres->SetLookupTable(colours);
+  if (!moving) spheres->ScalarVisibilityOff();
+  vtkNew<vtkActor> actor;
+  actor->SetMapper(spheres);
+  actor->GetProperty()->SetColor(0.86, 0.72, 0.42);  // straw
+  renderer->AddActor(actor);
+  if (!moving) return false;
+
+  vtkNew<vtkScalarBarActor> bar;
+  bar->SetLookupTable(colours);
+  bar->SetTitle("speed / (m/s)");
+  bar->SetNumberOfLabels(6);
+  bar->SetLabelFormat("%.2f");
+  bar->UnconstrainedFontSizeOn();
+  for (vtkTextProperty* text : {bar->GetTitleTextProperty(), bar->GetLabelTextProperty()}) {
+    text->SetColor(0.1, 0.1, 0.1);
+    text->SetFontSize(24);
+    text->ShadowOff();
+    text->ItalicOff();
+    text->BoldOff();
+  }
+  bar->SetPosition(0.87, 0.15);
+  bar->SetWidth(0.11);
+  bar->SetHeight(0.65);
+  renderer->AddActor2D(bar);
+  return true;
+}
+
+}  // namespace
+
+bool draw_grains(const std::string& run, const TorqueRecord& record, const std::string& path) {
+  if (!last_dump(fs::path(run) / "vtk", ".vtk") || !fs::exists(fs::path(run) / "mesh/drum.stl")) return false;
+  return draw_rig(run, &record, path);
+}
+
+bool draw_rig(const std::string& run, const TorqueRecord* record, const std::string& path) {
+  const auto dump = last_dump(fs::path(run) / "vtk", ".vtk");
+  const double turns =
+      record && dump
+          ? std::max(0.0, (static_cast<double>(dump->step) - record->start_step) / record->header.steps_per_turn)
+          : 0;
+  vtkNew<vtkRenderer> renderer;
+  renderer->SetBackground(1, 1, 1);
+  if (!add_parts(renderer, run, record ? std::optional(360 * turns) : std::nullopt)) return false;
+  const char* title = "The rig";
+  double shown[6];
+  renderer->ComputeVisiblePropBounds(shown);
+  if (dump) {
+    const auto grains = read_grains(dump->path, is_heap(run));
+    title = add_grains(renderer, grains) ? "Grains in the rig, coloured by speed" : "Grains in the rig, at rest";
+    if (is_heap(run)) {
+      double diameter[2];
+      grains->GetPointData()->GetArray("diameter")->GetRange(diameter);
+      grains->GetBounds(shown);  // of the centres
+      for (int i = 0; i < 6; ++i) shown[i] += (i % 2 ? 0.5 : -0.5) * diameter[1];
+    }
+  }
+  renderer->AddActor2D(caption(title, 34, 40, kHeight - 70));
+  if (record) {
+    const TorqueRecordHeader& h = record->header;
+    renderer->AddActor2D(caption(
+        fmt::format("{}{}, fill {}, {} 1/s, {}, after {:.2f} turns", h.material, h.provisional ? " (provisional)" : "",
+                    h.fill, h.speed,
+                    h.slice > 0 ? fmt::format("slice of {} of {} paddles", h.slice, h.paddles) : "whole drum", turns),
+        24, 40, kHeight - 110));
+  }
+
+  // A little from above; a shaft from its end for the most part, a shear box across the direction of shear (x).
+  vtkCamera* camera = renderer->GetActiveCamera();
+  if (fs::exists(fs::path(run) / "shear.csv"))
+    camera->SetPosition(-0.35, -1, 0.2);
+  else
+    camera->SetPosition(-1, -0.55, 0.35);
+  camera->SetFocalPoint(0, 0, 0);
+  camera->SetViewUp(0, 0, 1);
+  camera->SetViewAngle(25);
+  renderer->ResetCamera(shown);
+  camera->Zoom(1.15);
+  camera->SetWindowCenter(0, 0.08);
+
+  vtkNew<vtkRenderWindow> window;
+  window->SetOffScreenRendering(1);
+  window->SetMultiSamples(0);
+  window->SetAlphaBitPlanes(1);
+  renderer->SetUseDepthPeeling(1);
+  renderer->SetUseFXAA(true);
+  window->SetSize(kWidth, kHeight);
+  window->AddRenderer(renderer);
+  write_png(window, path);
+  return true;
+}
+
+}  // namespace vielto

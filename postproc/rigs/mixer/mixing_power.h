@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// From a loaded and an idling torque record to the mixing power of the whole drum and its dimensionless numbers.
+//
+//   power         P = 2 pi n T, T the mean torque on the grains of the whole shaft (slice torque times N/k) over the
+//                 steady whole turns (steady_part.h), with the uncertainty of an autocorrelated mean
+//                 (mean_uncertainty.h)
+//   power_loaded  2 pi n mean(torque on the grains + idling torque)
+//   power_idle    2 pi n mean(idling torque of the idling record)
+// The last two are the measurement chain. Grain torque holds no idling, so P needs neither.
+//
+// P is proportional to the assumed bulk density: kScaleUncertainty is common to every run of a material and not in u.
+//
+// Quality limits of every reported power: dt/t_c <= 1/20, mean overlap < 0.5 % and maximum < 5 % of the diameter over
+// the averaged turns, no lost grain; where recorded, work = dissipation + change of energy within 1 %, and the torques
+// of rotor, drum and gravity balance within three standard uncertainties. A violated one marks the power (warnings), it
+// does not hide it.
+//
+// Errors: BadInput if a record has no steady part of the turns asked for (saying how many more), if the idling record
+// is not one (fill 0) or ran at another speed (over 0.1 %), if the idling torque or the mean torque is not positive.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/mean_uncertainty.h"
+#include "core/quality_limits.h"
+#include "rigs/mixer/torque_record.h"
+#include "rigs/mixer/whole_shaft.h"
+
+namespace vielto {
+
+constexpr double kScaleUncertainty = 0.05;     // relative
+constexpr double kMostEnergyGap = 0.01;        // of the work
+constexpr double kMostSpeedDifference = 1e-3;  // loaded to idling record
+constexpr double kFewSamples = 10;             // effective samples below which u is uncertain itself
+
+// The turns averaged: `first` of the record's whole turns left out, `count` kept.
+struct AveragedTurns {
+  int first = 0, count = 0;
+  double slope = 0;    // of the kept turn means, per turn, over their mean
+  double slope_p = 1;  // probability of such a slope in a steady signal
+};
+
+struct RunQuality {
+  double dt_over_tc = 0, overlap_mean = 0, overlap_max = 0;
+  double lost_grains = 0;
+  double mass = 0, mass_target = 0;  // kg
+  double intervals_per_turn = 0;
+  std::optional<MeanUncertainty> torque_balance;  // rotor + drum + gravity, N m of the simulated domain
+  double torque_balance_relative = 0;             // over the rotor torque
+  std::optional<double> energy_gap;               // (work - dissipation - change of energy) / work
+  std::vector<std::string> warnings;              // limits violated
+  std::vector<std::string> notes;                 // what else a reader should know
+  bool ok() const { return warnings.empty(); }
+};
+
+struct MixingPower {
+  TorqueRecordHeader header;
+  int turns_total = 0;
+  int turn_first = 0;  // turns since the start of the rotation when the average begins
+  AveragedTurns averaged;
+  MeanUncertainty torque;                                    // whole drum, N m
+  MeanUncertainty power;                                     // W
+  std::optional<MeanUncertainty> loaded, idle;               // W
+  std::array<MeanUncertainty, kParts.size()> parts;          // torque, whole drum, N m
+  std::optional<std::array<double, kLosses.size()>> losses;  // dissipated power of the whole drum, W; if recorded
+  double n_p = 0, n_pc = 0, n_c = 0, fr_m = 0;
+  double thesis_power = 0;  // W
+  bool in_thesis_range = false;
+  double relative_gap = 0;  // power over thesis_power, less 1
+  ShaftCurves curves;
+  RunQuality quality;
+};
+
+// The steady turns of a signal of kPhases values a turn, `asked` at least; the record began at turn `first_turn`.
+// Errors: BadInput naming `path` if there are not that many; it says how many more to run.
+AveragedTurns steady_turns(const std::string& path, int first_turn, const std::vector<double>& signal, int asked,
+                           int block = 1);
+
+// Mean of a signal of kPhases values a turn over these turns.
+MeanUncertainty mean_over(const std::vector<double>& signal, const AveragedTurns& turns);
+
+// `turns` asked for, at least 3.
+MixingPower mixing_power(const TorqueRecord& loaded, const TorqueRecord* idle, int turns);
+
+}  // namespace vielto

@@ -1,0 +1,285 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "rigs/mixer/torque_record.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/bad_input.h"
+#include "core/mixing_numbers.h"
+#include "core/record_file.h"
+
+namespace vielto {
+namespace {
+
+constexpr double kMostPaddleMismatch = 0.01;  // of the mean absolute paddle torque
+// A time this close to the edge of a phase, in turns, is the edge: printed times are rounded.
+constexpr double kSliver = 1e-3 / kPhases;
+
+TorqueRecordHeader parse_header(const std::string& path, const Keys& keys) {
+  if (keys.integer("schema", 0) != 1)
+    throw BadInput(path, keys.line("schema"), "the schema is not 1",
+                   "write the record with this package's own version");
+  TorqueRecordHeader h;
+  h.speed = keys.number("speed", 0, true);
+  h.fill = keys.number("fill", 0);
+  if (h.fill > 1)
+    throw BadInput(path, keys.line("fill"), fmt::format("key 'fill' has the value {}", h.fill), "state 0 to 1");
+  h.slice = keys.integer("slice", 0);
+  h.paddles = keys.integer("paddles", 1);
+  for (const double degrees : keys.numbers("paddle_angles_deg")) h.paddle_angles.push_back(degrees * kPi / 180);
+  h.paddle_angle_step = keys.number("paddle_angle_step_deg", -360) * kPi / 180;
+  h.paddle_handing = keys.text("paddle_handing");
+  h.seed = keys.text("seed");
+  h.material = keys.text("material");
+  h.provisional = keys.integer("provisional", 0) != 0;
+  h.dt = keys.number("dt", 0, true);
+  h.dt_over_tc = keys.number("dt_over_tc", 0);
+  h.steps_per_turn = keys.number("steps_per_turn", 0, true);
+  h.interval_steps = keys.integer("interval_steps", 1);
+  h.bulk_density = keys.number("bulk_density", 0, true);
+  h.bulk_cohesion = keys.number("bulk_cohesion", 0, true);
+  h.power_lever = keys.number("power_lever", 0, true);
+  h.drum_volume = keys.number("drum_volume", 0, true);
+  h.mass = keys.number("mass_kg", 0);
+  h.mass_target = keys.number("mass_target_kg", 0);
+  h.clearance = keys.number("clearance", 0);
+  if (h.slice > 0 && h.paddle_angles.size() != static_cast<std::size_t>(h.slice))
+    throw BadInput(path, keys.line("paddle_angles_deg"),
+                   fmt::format("states {} angles for a slice of {} paddles", h.paddle_angles.size(), h.slice),
+                   "state one angle for each paddle");
+  // 0.1 % of slack for rounded steps.
+  if (std::fabs(h.steps_per_turn * h.dt * h.speed - 1) > 1e-3)
+    throw BadInput(path, keys.line("steps_per_turn"),
+                   fmt::format("steps_per_turn * dt * speed is {:.6g}", h.steps_per_turn * h.dt * h.speed),
+                   "state numbers whose product is 1");
+  return h;
+}
+
+// Of each two neighbouring groups of `width` values their mean, in place.
+void halve(std::vector<double>& values, std::size_t width) {
+  const std::size_t pairs = values.size() / (2 * width);
+  for (std::size_t p = 0; p < pairs; ++p)
+    for (std::size_t i = 0; i < width; ++i)
+      values[p * width + i] = 0.5 * (values[2 * p * width + i] + values[(2 * p + 1) * width + i]);
+  values.resize(pairs * width);
+}
+
+// Means over phases of the turn, one phase after another, each over the turns of a block.
+class PhaseBins {
+ public:
+  explicit PhaseBins(std::size_t signals) : sums_(signals, 0.0), block_(signals), curves_(signals) {
+    for (auto& signal : block_) signal.assign(kPhases, 0.0);
+  }
+
+  // Part of an interval inside the current phase: `share` of a turn, one value per signal.
+  void add(const std::vector<double>& values, double share) {
+    for (std::size_t s = 0; s < sums_.size(); ++s) sums_[s] += share * values[s];
+    weight_ += share;
+  }
+  void next() {
+    const auto phase = static_cast<std::size_t>(count_++ % kPhases);
+    for (std::size_t s = 0; s < sums_.size(); ++s) {
+      block_[s][phase] += sums_[s] / weight_ / turns_per_block_;
+      sums_[s] = 0;
+    }
+    weight_ = 0;
+  }
+  // Whether the phase just finished ends a block; then it is kept.
+  bool ends_block() {
+    if (count_ % kPhases != 0 || ++turns_in_block_ < turns_per_block_) return false;
+    for (std::size_t s = 0; s < block_.size(); ++s) {
+      curves_[s].insert(curves_[s].end(), block_[s].begin(), block_[s].end());
+      block_[s].assign(kPhases, 0.0);
+    }
+    turns_in_block_ = 0;
+    ++blocks_;
+    return true;
+  }
+  bool full() const { return blocks_ == kMostBlocks; }
+  void halve_blocks() {
+    for (auto& curve : curves_) halve(curve, kPhases);
+    blocks_ /= 2;
+    turns_per_block_ *= 2;
+  }
+  long count() const { return count_; }  // of finished phases
+  int blocks() const { return blocks_; }
+  int turns_per_block() const { return turns_per_block_; }
+  std::vector<double>& curve(std::size_t s) { return curves_[s]; }
+
+ private:
+  std::vector<double> sums_;
+  std::vector<std::vector<double>> block_, curves_;  // of the block under way, of the finished ones
+  double weight_ = 0;
+  long count_ = 0;
+  int turns_in_block_ = 0, turns_per_block_ = 1, blocks_ = 0;
+};
+
+class EnergyColumns {
+ public:
+  explicit EnergyColumns(const Columns& columns) : kinetic_(columns.at("kinetic_J")), recorded_(columns.has("work_J")) {
+    if (!recorded_) return;
+    work_ = columns.at("work_J");
+    elastic_ = columns.at("elastic_J");
+    potential_ = columns.at("potential_J");
+    for (std::size_t k = 0; k < kLosses.size(); ++k) losses_[k] = columns.at(fmt::format("diss_{}_J", kLosses[k]));
+  }
+  bool recorded() const { return recorded_; }
+  EnergyAccounts at(const std::vector<double>& row) const {
+    EnergyAccounts accounts{row[work_], row[kinetic_], row[elastic_], row[potential_], {}};
+    if (recorded_)
+      for (std::size_t k = 0; k < losses_.size(); ++k) accounts.losses[k] = row[losses_[k]];
+    return accounts;
+  }
+
+ private:
+  std::size_t kinetic_;
+  bool recorded_;
+  std::size_t work_ = 0, elastic_ = 0, potential_ = 0;
+  std::array<std::size_t, kLosses.size()> losses_{};
+};
+
+// Steps, times and turns must follow each other; an interval is [end - length, end] in turns.
+class Progress {
+ public:
+  Progress(const std::string& path, const TorqueRecordHeader& header, const Columns& columns)
+      : path_(path), h_(header), step_(columns.at("step")), time_(columns.at("time_s")), turn_(columns.at("turn")) {}
+
+  double length() const { return h_.interval_steps / h_.steps_per_turn; }
+
+  // End of the row's interval, in turns. Counted in steps: the printed turn is rounded.
+  double end(const std::vector<double>& row, int line) {
+    if (rows_++ == 0) first_ = {row[step_], row[time_], row[turn_]};
+    const double expected = first_[0] + (rows_ - 1) * h_.interval_steps;
+    if (row[step_] != expected)
+      throw BadInput(path_, line, "step", fmt::format("is {} where {} follows", row[step_], expected),
+                     "keep every row, interval_steps apart");
+    const double steps = row[step_] - first_[0];
+    const double time = first_[1] + steps * h_.dt, turn = first_[2] + steps / h_.steps_per_turn;
+    // Half an interval of slack for rounded print.
+    if (std::fabs(row[time_] - time) > 0.5 * h_.interval_steps * h_.dt)
+      throw BadInput(path_, line, "time_s", fmt::format("is {} where {} follows", row[time_], time),
+                     "keep one time step in one record");
+    if (std::fabs(row[turn_] - turn) > 0.5 * length())
+      throw BadInput(path_, line, "turn", fmt::format("is {} where {} follows", row[turn_], turn),
+                     "keep one speed in one record");
+    return turn;
+  }
+  double rows() const { return rows_; }
+
+ private:
+  const std::string& path_;
+  const TorqueRecordHeader& h_;
+  std::size_t step_, time_, turn_;
+  std::array<double, 3> first_ = {0, 0, 0};
+  double rows_ = 0;
+};
+
+// The paddles' own columns must add up to the part's.
+void check_paddles(const TorqueRecord& record) {
+  if (record.paddle.empty()) return;
+  double most = 0, size = 0;
+  for (std::size_t i = 0; i < record.part[0].size(); ++i) {
+    double sum = 0;
+    for (const auto& paddle : record.paddle) sum += paddle[i];
+    most += std::fabs(sum - record.part[0][i]);
+    size += std::fabs(record.part[0][i]);
+  }
+  if (most > kMostPaddleMismatch * size)
+    throw BadInput(record.path, 0,
+                   fmt::format("the {} paddle columns do not add up to paddles_Nm", record.paddle.size()),
+                   "record every paddle of the slice once");
+}
+
+}  // namespace
+
+std::vector<double> TorqueRecord::rotor() const {
+  std::vector<double> sum = part[0];
+  for (std::size_t p = 1; p < 3; ++p)
+    for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += part[p][i];
+  return sum;
+}
+
+TorqueRecord read_torque_record(const std::string& path) {
+  RecordFile file(path, "a run folder or its torque.csv");
+  const Columns& columns = file.columns();
+
+  TorqueRecord record;
+  record.path = path;
+  record.header = parse_header(path, file.keys());
+  const TorqueRecordHeader& h = record.header;
+  Progress progress(path, h, columns);
+
+  // The signals kept by phase, in this order.
+  std::vector<std::size_t> kept;
+  for (const char* part : kParts) kept.push_back(columns.at(fmt::format("{}_Nm", part)));
+  kept.push_back(columns.at("idle_Nm"));
+  kept.push_back(columns.at("overlap_mean"));
+  const bool has_gravity = columns.has("gravity_Nm");
+  if (has_gravity) kept.push_back(columns.at("gravity_Nm"));
+  for (int k = 1; k <= h.slice; ++k) kept.push_back(columns.at(fmt::format("paddle{}_Nm", k)));
+  // Not used here, but part of the format.
+  for (const char* part : kParts)
+    for (const char* axis : {"x", "y", "z"}) columns.at(fmt::format("{}_F{}_N", part, axis));
+  columns.at("contacts");
+  const std::size_t overlap_max = columns.at("overlap_max"), grains = columns.at("grains");
+  const EnergyColumns energy(columns);
+
+  PhaseBins bins(kept.size());
+  std::vector<double> row, values(kept.size());
+  double block_overlap_max = 0;
+  while (file.next_row(row)) {
+    const double end = progress.end(row, file.line());
+    const double begin = end - progress.length();
+    if (progress.rows() == 1) {
+      record.first_turn = std::max(0, static_cast<int>(std::ceil(begin - kSliver)));
+      record.first_grains = row[grains];
+      record.start_step = row[columns.at("step")] - end * h.steps_per_turn;
+    }
+    record.last_grains = row[grains];
+    const auto reaches = [&](long phase) {
+      return end >= record.first_turn + static_cast<double>(phase) / kPhases - kSliver;
+    };
+    if (energy.recorded() && record.energy.empty() && reaches(0)) record.energy.push_back(energy.at(row));
+    if (end <= record.first_turn + kSliver) continue;
+
+    for (std::size_t s = 0; s < kept.size(); ++s) values[s] = row[kept[s]];
+    block_overlap_max = std::max(block_overlap_max, row[overlap_max]);
+    for (double from = std::max(begin, static_cast<double>(record.first_turn));;) {
+      const double edge = record.first_turn + static_cast<double>(bins.count() + 1) / kPhases;
+      if (from < std::min(end, edge)) bins.add(values, std::min(end, edge) - from);
+      if (!reaches(bins.count() + 1)) break;
+      bins.next();
+      from = edge;
+      if (!bins.ends_block()) continue;
+      record.overlap_max.push_back(block_overlap_max);
+      block_overlap_max = end > edge + kSliver ? row[overlap_max] : 0;
+      if (energy.recorded()) record.energy.push_back(energy.at(row));
+      if (!bins.full()) continue;
+      bins.halve_blocks();
+      for (std::size_t b = 0; b < record.overlap_max.size() / 2; ++b)
+        record.overlap_max[b] = std::max(record.overlap_max[2 * b], record.overlap_max[2 * b + 1]);
+      record.overlap_max.resize(record.overlap_max.size() / 2);
+      for (std::size_t b = 0; 2 * b < record.energy.size(); ++b) record.energy[b] = record.energy[2 * b];
+      record.energy.resize((record.energy.size() + 1) / 2);
+    }
+  }
+  if (progress.rows() == 0) throw BadInput(path, 0, "holds no row", "run the case again");
+
+  record.turns = bins.blocks();
+  record.turns_per_block = bins.turns_per_block();
+  record.intervals_per_turn = 1 / progress.length();
+  std::size_t s = 0;
+  const auto take = [&](std::vector<double>& signal) { signal = std::move(bins.curve(s++)); };
+  for (auto& part : record.part) take(part);
+  take(record.idle);
+  take(record.overlap_mean);
+  if (has_gravity) take(record.gravity);
+  record.paddle.resize(static_cast<std::size_t>(h.slice));
+  for (auto& paddle : record.paddle) take(paddle);
+  check_paddles(record);
+  return record;
+}
+
+}  // namespace vielto

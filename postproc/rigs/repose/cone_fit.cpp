@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "rigs/repose/cone_fit.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/bad_input.h"
+#include "core/mixing_numbers.h"
+
+namespace vielto {
+namespace {
+
+constexpr double kEmpty = -std::numeric_limits<double>::infinity();
+
+struct Line {
+  double intercept = 0, slope = 0;  // z = intercept - slope r
+  double angle() const { return std::atan(slope) * 180 / kPi; }
+};
+
+Line fit(const std::vector<SurfacePoint>& points) {
+  double r = 0, z = 0, rr = 0, rz = 0;
+  const double n = static_cast<double>(points.size());
+  for (const SurfacePoint& p : points) r += p.r / n, z += p.z / n;
+  for (const SurfacePoint& p : points) rr += (p.r - r) * (p.r - r), rz += (p.r - r) * (p.z - z);
+  return {z - rz / rr * r, -rz / rr};
+}
+
+// Top of the highest grain in each cell, [strip][cell]; kEmpty where there is none.
+std::vector<std::vector<double>> surface_cells(const Heap& heap) {
+  const double d = heap.header.grain_diameter;
+  double reach = 0;
+  for (const Grain& g : heap.grains) reach = std::max(reach, std::hypot(g.x[0], g.x[1]));
+  const std::size_t cells = static_cast<std::size_t>(reach / d) + 1;
+  std::vector<std::vector<double>> top(kConeStrips, std::vector<double>(cells, kEmpty));
+  for (std::size_t s = 0; s < kConeStrips; ++s) {
+    const double azimuth = 2 * kPi * static_cast<double>(s) / kConeStrips;
+    for (const Grain& g : heap.grains) {
+      const double along = g.x[0] * std::cos(azimuth) + g.x[1] * std::sin(azimuth);
+      const double across = g.x[1] * std::cos(azimuth) - g.x[0] * std::sin(azimuth);
+      if (along < 0 || std::fabs(across) > d) continue;
+      double& cell = top[s][std::min(cells - 1, static_cast<std::size_t>(along / d))];
+      cell = std::max(cell, g.x[2] + g.radius);
+    }
+  }
+  return top;
+}
+
+}  // namespace
+
+ConeFit cone_fit(const Heap& heap) {
+  const double d = heap.header.grain_diameter;
+  const auto top = surface_cells(heap);
+  const auto radius = [&](std::size_t cell) { return (static_cast<double>(cell) + 0.5) * d; };
+  ConeFit result;
+  // A cell without a grain is bare base.
+  for (std::size_t c = 0; c < top[0].size(); ++c) {
+    double sum = 0;
+    for (const auto& strip : top) {
+      sum += std::max(strip[c], 0.0);
+      if (strip[c] > kEmpty) result.surface.push_back({radius(c), strip[c]});
+    }
+    result.profile.push_back({radius(c), sum / kConeStrips});
+    result.height = std::max(result.height, sum / kConeStrips);
+  }
+
+  // From the highest place outwards: first cell below the top's share, last one before the foot's.
+  std::size_t from = 0;
+  while (result.profile[from].z < result.height) ++from;
+  while (from < result.profile.size() && result.profile[from].z > kFlankTop * result.height) ++from;
+  std::size_t to = from;
+  while (to < result.profile.size() && result.profile[to].z > kFlankFoot * result.height) ++to;
+  if (to - from < kLeastFlank)
+    throw BadInput(
+        heap.path, 0,
+        fmt::format("the heap's flank is {} cells of a diameter long, {} are needed", to - from, kLeastFlank),
+        "run with smaller or more grains");
+  result.flank_from = static_cast<double>(from) * d;
+  result.flank_to = static_cast<double>(to) * d;
+
+  const double middle = 0.5 * (result.flank_from + result.flank_to);
+  std::vector<SurfacePoint> all, upper, lower;
+  for (const auto& strip : top) {
+    std::vector<SurfacePoint> flank;
+    for (std::size_t c = from; c < to; ++c) {
+      if (strip[c] == kEmpty) continue;
+      flank.push_back({radius(c), strip[c]});
+      (radius(c) < middle ? upper : lower).push_back(flank.back());
+    }
+    all.insert(all.end(), flank.begin(), flank.end());
+    // a strip that is mostly bare has no flank to speak of
+    if (static_cast<int>(flank.size()) >= kLeastFlank - 1) result.strip_angles.push_back(fit(flank).angle());
+  }
+  if (result.strip_angles.size() < kConeStrips / 2)
+    throw BadInput(heap.path, 0, "the heap covers less than half of the azimuths", "run with more grains");
+  const Line line = fit(all);
+  result.intercept = line.intercept;
+  result.slope = line.slope;
+  result.curvature = fit(upper).angle() - fit(lower).angle();
+
+  const double n = static_cast<double>(result.strip_angles.size());
+  for (const double angle : result.strip_angles) result.angle += angle / n;
+  double squares = 0;
+  for (const double angle : result.strip_angles) squares += (angle - result.angle) * (angle - result.angle);
+  result.spread = std::sqrt(squares / (n - 1));
+  result.u = result.spread / std::sqrt(n);
+  return result;
+}
+
+}  // namespace vielto

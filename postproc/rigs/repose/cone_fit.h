@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Angle of repose of a heap: a cone fitted over all azimuths.
+//
+// 1. Surface. From the axis go kConeStrips strips, each 2 d wide, evenly over the azimuth; each is cut into cells d
+// long.
+//    The surface of a cell is the top z + R of its highest grain. All cells have the same area: with sectors, an outer
+//    cell would hold more grains, its highest would lie higher, and the slope would come out too small.
+// 2. Flank. The mean profile is the mean over the strips at each radius; the flank is where it lies between kFlankTop
+// and
+//    kFlankFoot of its greatest height: the rounded top and the thin foot are no cone. It is chosen by radius, never by
+//    the height of a single cell, which would cut off high and low ones and tilt the line.
+// 3. Line. z = a - b r by least squares through the flank's cells of each strip; the angle of a strip is atan b.
+//    The angle is the mean over strips, u their standard deviation over the square root of their number: azimuths are
+//    the repetitions. A heap off its axis by a little is steeper on one side and flatter on the other, which cancels.
+//
+// Limits: a constant angle on the flank is assumed; `curvature` tells how much steeper the upper half is than the
+// lower. Tested on synthetic cones of known angle (tests/rigs/cone_fit_test.cpp). Errors: BadInput if the flank is
+// shorter than kLeastFlank cells: the heap has too few grains.
+#pragma once
+
+#include <vector>
+
+#include "rigs/repose/heap.h"
+
+namespace vielto {
+
+constexpr int kConeStrips = 24;
+constexpr double kFlankTop = 0.8, kFlankFoot = 0.2;  // of the greatest height
+constexpr int kLeastFlank = 4;                       // cells
+
+struct SurfacePoint {
+  double r = 0, z = 0;  // m
+};
+
+struct ConeFit {
+  double angle = 0, u = 0;              // deg
+  double spread = 0;                    // deg, standard deviation over the azimuth
+  double curvature = 0;                 // deg, angle of the flank's upper half less that of its lower half
+  double height = 0;                    // m, of the mean profile
+  double flank_from = 0, flank_to = 0;  // m, radii
+  double intercept = 0, slope = 0;      // mean line z = intercept - slope r, m and 1
+  std::vector<double> strip_angles;     // deg
+  std::vector<SurfacePoint> profile;    // mean over the strips
+  std::vector<SurfacePoint> surface;    // all cells
+};
+
+ConeFit cone_fit(const Heap& heap);
+
+}  // namespace vielto

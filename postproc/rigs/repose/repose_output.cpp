@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "rigs/repose/repose_output.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/quality_limits.h"
+
+namespace vielto {
+namespace {
+
+// An observation's u must be above 0; an angle is not known better than this from any heap of grains, deg.
+constexpr double kLeastU = 1e-6;
+
+std::size_t grain_count(const Heap& heap) {
+  return heap.grains.size() / static_cast<std::size_t>(heap.header.spheres_per_grain);
+}
+
+}  // namespace
+
+nlohmann::ordered_json repose_json(const Heap& heap, const ConeFit& f) {
+  const HeapHeader& h = heap.header;
+  return {
+      {"schema", 1},
+      {"rig", "repose"},
+      {"material", h.material},
+      {"provisional", h.provisional},
+      {"wall", h.wall},
+      {"base", h.base},
+      {"seed", h.seed},
+      {"lift_speed_m_s", h.lift_speed},
+      {"grain_diameter_m", h.grain_diameter},
+      {"youngs_modulus_Pa", h.youngs_modulus},
+      {"grains", grain_count(heap)},
+      {"rest_time_s", h.rest_time},
+      {"angle_deg", f.angle},
+      {"angle_u_deg", f.u},
+      {"angle_spread_deg", f.spread},
+      {"strips", f.strip_angles.size()},
+      {"curvature_deg", f.curvature},
+      {"height_m", f.height},
+      {"flank_from_m", f.flank_from},
+      {"flank_to_m", f.flank_to},
+      {"line_intercept_m", f.intercept},
+      {"line_slope", f.slope},
+      {"dt_over_tc", h.dt_over_tc},
+      {"strip_angles_deg", f.strip_angles},
+  };
+}
+
+std::string repose_table(const Heap& heap, const ConeFit& f) {
+  const HeapHeader& h = heap.header;
+  std::string text = fmt::format("{}{} on {} ({} base), {} {} of {} mm, lifted at {} mm/s, seed {}\n\n", h.material,
+                                 h.provisional ? " (provisional)" : "", h.wall, h.base, grain_count(heap),
+                                 h.spheres_per_grain > 1
+                                     ? fmt::format("clumps of {} spheres, as large as spheres", h.spheres_per_grain)
+                                     : "grains",
+                                 1e3 * h.grain_diameter, 1e3 * h.lift_speed, h.seed);
+  text += fmt::format("  {:<44}{:>12}{:>12}  {}\n", "heap", "value", "u (k=1)", "unit");
+  const auto line = [&](const std::string& name, double value, const std::string& u, const std::string& unit) {
+    text += fmt::format("  {:<44}{:>12.5g}{:>12}  {}\n", name, value, u, unit);
+  };
+  line("static angle of repose", f.angle, fmt::format("{:.2g}", f.u), "deg");
+  line(fmt::format("  standard deviation over {} azimuths", f.strip_angles.size()), f.spread, "", "deg");
+  line("  upper half of the flank less lower half", f.curvature, "", "deg");
+  line("height of the mean profile", 1e3 * f.height, "", "mm");
+  line("flank from radius", 1e3 * f.flank_from, "", "mm");
+  line("flank to radius", 1e3 * f.flank_to, "", "mm");
+  line("at rest after", h.rest_time, "", "s");
+  line("time step over t_c", h.dt_over_tc, "", fmt::format("1, limit {}", kMostDtOverTc));
+  return text;
+}
+
+std::string repose_profile_csv(const ConeFit& f) {
+  std::string text = "radius_m,height_m\n";
+  for (const SurfacePoint& p : f.profile) text += fmt::format("{:.9g},{:.9g}\n", p.r, p.z);
+  return text;
+}
+
+std::vector<Observation> repose_observations(const Heap& heap, const ConeFit& f, const TestLabel& label) {
+  Observation row;
+  row.test = label.test;
+  row.role = label.role;
+  row.apparatus = "repose";
+  row.observable = "angle";
+  row.value = f.angle;
+  row.u = std::max(f.u, kLeastU);
+  row.unit = *observable_unit("repose", "angle");
+  row.moisture = label.moisture;
+  row.wall = label.wall.empty() ? heap.header.wall : label.wall;
+  row.material = heap.header.material;
+  return {row};
+}
+
+}  // namespace vielto

@@ -1,0 +1,277 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// `vielto import yade` through its command line: synthetic torque text with a known answer, files that Yade itself
+// wrote (tests/data/yade), and bad input.
+#include <gtest/gtest.h>
+#include <stdlib.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <random>
+#include <sstream>
+#include <string>
+
+#include "core/observation_table.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+const double kPi = std::acos(-1.0);
+const std::string kData = VIELTO_SOURCE_DIR "/tests/data/yade/";
+
+std::string content(const fs::path& path) {
+  std::ostringstream out;
+  out << std::ifstream(path, std::ios::binary).rdbuf();
+  return out.str();
+}
+
+// What plot.saveDataTxt writes: names after '#', tabs, one row a call.
+struct YadePlot {
+  double mean = 2, swing = 0.5, noise = 0.05, start_up = 0, drift = 0, turns = 8, speed = 1.25, per_turn = 50;
+  std::string names = "# Tx\t\ti\t\tt\n", extra;  // extra: a line in the middle
+  bool nan_rows = false;
+  std::string text() const {
+    std::mt19937_64 random(1);
+    std::normal_distribution<double> normal;
+    std::ostringstream out;
+    out.precision(17);
+    out << "# case=\tmixer\n" << names;
+    const int rows = static_cast<int>(std::lround(turns * per_turn));
+    for (int i = 0; i <= rows; ++i) {
+      const double turn = i / per_turn;
+      const double torque = mean + swing * std::cos(2 * kPi * 4 * turn) + drift * turn +
+                            start_up * std::exp(-2 * turn) + noise * normal(random);
+      out << torque << "\t" << 100 * i << "\t" << turn / speed << "\n";
+      if (nan_rows) out << "nan\t" << 100 * i + 50 << "\t" << (turn + 0.5 / per_turn) / speed << "\n";
+      if (i == rows / 2) out << extra;
+    }
+    return out.str();
+  }
+};
+
+class ImportYade : public testing::Test {
+ protected:
+  void SetUp() override {
+    std::string name = (fs::temp_directory_path() / "vielto-test-XXXXXX").string();
+    folder_ = mkdtemp(name.data());
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  void write(const std::string& name, const std::string& text) {
+    std::ofstream(folder_ / name, std::ios::binary) << text;
+  }
+  int import(const std::string& arguments, const std::string& test = "A") {
+    const std::string command = "cd '" + folder_.string() +
+                                "' && '" VIELTO_BIN_DIR "/vielto' import yade --out table.csv --test " + test + " " +
+                                arguments + " > out.txt 2> err.txt";
+    const int status = std::system(command.c_str());
+    err_ = content(folder_ / "err.txt");
+    return WEXITSTATUS(status);
+  }
+  std::vector<vielto::Observation> rows() { return vielto::read_observations((folder_ / "table.csv").string()); }
+  void refuses(const std::string& arguments, const std::string& what) {
+    EXPECT_EQ(import(arguments), 2) << arguments;
+    EXPECT_NE(err_.find(what), std::string::npos) << "expected: " << what << "\ngot: " << err_;
+    EXPECT_EQ(std::count(err_.begin(), err_.end(), '\n'), 1) << err_;
+    EXPECT_FALSE(fs::exists(folder_ / "table.csv")) << arguments;
+  }
+
+  const std::string torque_ = "--torque plot.txt --torque-column Tx --speed 1.25 --fill 0.15 ";
+  fs::path folder_;
+  std::string err_;
+};
+
+// P = 2 pi n T. Without noise the trapezoidal means are exact but for the swing's, whose mean over whole turns is 0.
+TEST_F(ImportYade, PowerIsThatOfTheMeanTorque) {
+  YadePlot plot;
+  plot.noise = 0;
+  write("plot.txt", plot.text());
+  ASSERT_EQ(import(torque_ + "--role check --moisture 0.089 --wall steel --material hulled_millet"), 0) << err_;
+  ASSERT_EQ(rows().size(), 1u);
+  const vielto::Observation row = rows()[0];
+  EXPECT_NEAR(row.value, 2 * kPi * 1.25 * 2, 1e-9);
+  EXPECT_EQ(row.test, "A");
+  EXPECT_EQ(row.role, "check");
+  EXPECT_EQ(row.apparatus, "mixer");
+  EXPECT_EQ(row.observable, "power");
+  EXPECT_EQ(row.speed, 1.25);
+  EXPECT_EQ(row.fill, 0.15);
+  EXPECT_EQ(row.moisture, 0.089);
+  EXPECT_EQ(row.wall, "steel");
+  EXPECT_EQ(row.material, "hulled_millet");
+}
+
+// White noise of 0.05 N m in 400 samples: the standard error of their mean is 0.05/20. The noise is linear between the
+// samples, which changes nothing in that; u is estimated from it, so within a factor of 1.5.
+TEST_F(ImportYade, UncertaintyIsThatOfTheNoise) {
+  write("plot.txt", YadePlot().text());
+  ASSERT_EQ(import(torque_), 0) << err_;
+  const double u = 2 * kPi * 1.25 * 0.05 / 20;
+  EXPECT_NEAR(rows()[0].value, 2 * kPi * 1.25 * 2, 4 * u);
+  EXPECT_GT(rows()[0].u, u / 1.5);
+  EXPECT_LT(rows()[0].u, u * 1.5);
+}
+
+TEST_F(ImportYade, StartUpIsLeftOut) {
+  YadePlot plot;
+  plot.start_up = 3;
+  plot.turns = 12;
+  write("plot.txt", plot.text());
+  ASSERT_EQ(import(torque_), 0) << err_;
+  EXPECT_NEAR(rows()[0].value, 2 * kPi * 1.25 * 2, 0.01 * 2 * kPi * 1.25 * 2);
+  EXPECT_NE(content(folder_ / "out.txt").find("12 whole turns"), std::string::npos);
+}
+
+TEST_F(ImportYade, ColumnsUnitsAndStartAreTheUsers) {
+  YadePlot plot;
+  plot.noise = 0;
+  const double dt = 1 / (plot.speed * plot.per_turn * 100);  // i counts steps, 100 a row
+  write(
+      "plot.txt", "my_T,time\n" + [&] {
+        std::istringstream in(plot.text());
+        std::string line, out;
+        double torque, i, t;
+        while (std::getline(in, line))
+          if (std::sscanf(line.c_str(), "%lf %lf %lf", &torque, &i, &t) == 3)
+            out += std::to_string(-1000 * torque) + "," + std::to_string(i) + "\n";
+        return out;
+      }());
+  std::ostringstream factor;
+  factor.precision(17);
+  factor << dt;
+  ASSERT_EQ(import("--torque plot.txt --torque-column my_T --torque-factor -0.001 --time-column time --time-factor " +
+                   factor.str() + " --start 0.8 --speed 1.25"),
+            0)
+      << err_;
+  EXPECT_NEAR(rows()[0].value, 2 * kPi * 1.25 * 2, 1e-6);
+  EXPECT_FALSE(rows()[0].fill);
+  EXPECT_NE(content(folder_ / "out.txt").find("7 whole turns"), std::string::npos);
+}
+
+TEST_F(ImportYade, IdlingMakesTwoRowsAndRippleAThird) {
+  YadePlot plot;
+  plot.noise = 0.001;
+  write("plot.txt", plot.text());
+  plot.mean = 0.3, plot.swing = 0;
+  write("empty.txt", plot.text());
+  ASSERT_EQ(import(torque_ + "--idle empty.txt --ripple"), 0) << err_;
+  ASSERT_EQ(rows().size(), 3u);
+  EXPECT_EQ(rows()[0].observable, "power_loaded");
+  EXPECT_EQ(rows()[1].observable, "power_idle");
+  EXPECT_NEAR(rows()[1].value, 2 * kPi * 1.25 * 0.3, 0.01);
+  EXPECT_EQ(rows()[2].observable, "torque_ripple");
+  // 0.5/sqrt(2) over 2; the line between 12.5 samples a period flattens a cosine by sinc^2, about 2 %
+  EXPECT_NEAR(rows()[2].value, 0.5 / std::sqrt(2.0) / 2, 0.03 * 0.177);
+}
+
+TEST_F(ImportYade, RowsOfOtherCallsAreLeftOutOnlyIfAsked) {
+  YadePlot plot;
+  plot.noise = 0;
+  plot.nan_rows = true;
+  write("plot.txt", plot.text());
+  refuses(torque_, "plot.txt, line 4, column Tx: has no value (nan)");
+  ASSERT_EQ(import(torque_ + "--skip-nan"), 0) << err_;
+  EXPECT_NEAR(rows()[0].value, 2 * kPi * 1.25 * 2, 1e-9);
+}
+
+TEST_F(ImportYade, AppendsTestsAndRefusesOneTwice) {
+  write("plot.txt", YadePlot().text());
+  ASSERT_EQ(import(torque_), 0) << err_;
+  ASSERT_EQ(import(torque_ + "--append", "B"), 0) << err_;
+  ASSERT_EQ(rows().size(), 2u);
+  EXPECT_EQ(rows()[1].test, "B");
+  const std::string before = content(folder_ / "table.csv");
+  EXPECT_EQ(import(torque_ + "--append"), 2);
+  EXPECT_NE(err_.find("states power twice"), std::string::npos) << err_;
+  EXPECT_EQ(content(folder_ / "table.csv"), before);
+}
+
+// Yade's own files. The spheres lie whole in the box from -5 to 95 mm: the sum of their masses is known from the text.
+TEST_F(ImportYade, BulkDensityFromYadesFiles) {
+  double volume = 0;
+  std::istringstream in(content(kData + "grains.txt"));
+  std::string line;
+  double x, y, z, r;
+  while (std::getline(in, line))
+    if (std::sscanf(line.c_str(), "%lf %lf %lf %lf", &x, &y, &z, &r) == 4) volume += 4.0 / 3 * kPi * r * r * r;
+  const std::string box = "--grain-density 1375 --box -0.005 0.095 -0.005 0.095 -0.005 0.095 ";
+  for (const std::string file : {"grains.txt", "grains-spheres.0.vtu"}) {
+    ASSERT_EQ(import("--bed '" + kData + file + "' " + box), 0) << err_;
+    ASSERT_EQ(rows().size(), 1u);
+    EXPECT_EQ(rows()[0].observable, "bulk_density");
+    EXPECT_NEAR(rows()[0].value / (1375 * volume / 1e-3), 1, 1e-6) << file;  // places are single precision in the vtu
+  }
+  // A box that cuts spheres in half holds half of each: the same mean density but for the spread of the radii (7 % of
+  // the volume a sphere, 512 spheres) and the grid in a cut sphere (1 %).
+  ASSERT_EQ(import("--bed '" + kData + "grains.txt' --grain-density 1375 --box 0 0.08 0 0.08 0 0.08"), 0) << err_;
+  EXPECT_NEAR(rows()[0].value / (1375 * volume / 1e-3), 1, 0.015);
+}
+
+// One grain in each strip (three radii wide) on a line of 20 degrees, every other one 1 mm too high, in the second
+// snapshot the others: the mean of both is the line.
+TEST_F(ImportYade, AngleOfASurface) {
+  for (int snapshot = 0; snapshot < 2; ++snapshot) {
+    std::ostringstream text;
+    text << "x y z r\n";
+    for (int i = 0; i < 20; ++i) {
+      const double y = 0.015 * (i + 0.5);
+      text << 0 << " " << y << " " << std::tan(20 * kPi / 180) * y + 0.001 * (i % 2 == snapshot) << " 0.005\n";
+      text << 0 << " " << y << " " << -0.02 << " 0.005\n";  // below the surface
+    }
+    write("bed" + std::to_string(snapshot) + ".txt", text.str());
+  }
+  ASSERT_EQ(import("--bed bed0.txt bed1.txt --angle drum --window 0 0.3 --speed 0.1"), 0) << err_;
+  EXPECT_EQ(rows()[0].apparatus, "drum");
+  EXPECT_NEAR(rows()[0].value, 20, 0.01);  // the tangent's curvature
+  EXPECT_GT(rows()[0].u, 0);
+  ASSERT_EQ(import("--bed bed0.txt --angle repose"), 0) << err_;  // the middle half
+  EXPECT_NEAR(rows()[0].value, 20, 3 * rows()[0].u);
+}
+
+TEST_F(ImportYade, RefusesBadInputInOneLine) {
+  const std::string good = YadePlot().text();
+  write("plot.txt", good);
+  refuses("", "imports nothing");
+  refuses("--torque plot.txt --speed 1", "--torque has no column");
+  refuses("--torque plot.txt --torque-column Tx", "--torque has no speed");
+  refuses("--torque none.txt --torque-column Tx --speed 1", "none.txt: cannot be read");
+  refuses("--torque plot.txt --torque-column Ty --speed 1", "has no column 'Ty'; choose from Tx, i, t");
+  refuses("--torque plot.txt --torque-column Tx --time-column i --speed 1", "is 1e+02 turns after line");
+  refuses(torque_ + "--torque-factor -1", "column Tx: has the mean -");
+  refuses(torque_ + "--turns 9", "has 8 whole turns, and 9 steady ones are asked for; run at least 1 more");
+  refuses(torque_ + "--start -5", "--start");
+  refuses("--bed plot.txt", "--bed makes no observation");
+  refuses("--bed plot.txt --angle drum", "has no column 'x'");
+  refuses("--bed plot.txt --grain-density 1375 --box 0 1 0 1 1 0", "--box is turned inside out");
+  YadePlot broken;
+  broken.extra = "1\t2\n";
+  write("plot.txt", broken.text());
+  refuses(torque_, "plot.txt, line 204: has 2 numbers for 3 columns");
+  broken.extra = "1\t2\tabc\n";
+  write("plot.txt", broken.text());
+  refuses(torque_, "plot.txt, line 204, column t: 'abc' is not a finite number");
+  broken.extra = "1\t2\t0.1\n";  // a second run in the same file
+  write("plot.txt", broken.text());
+  refuses(torque_, "plot.txt, line 204, column t: does not rise after line 203");
+  YadePlot drifting;
+  drifting.drift = 0.1;
+  write("plot.txt", drifting.text());
+  refuses(torque_, "has 8 whole turns, the start-up still shows in turn 4");
+  write("plot.txt", "1 2 3\n");
+  refuses(torque_, "line 1: begins with numbers");
+  write("plot.txt", std::string("BZh9\x31\x41\x59\x00", 8));
+  refuses(torque_, "is no text; unpack it first");
+  write("grains.vtu", "not xml");
+  refuses("--bed grains.vtu --angle drum", "grains.vtu: is no VTK file");
+  const std::string vtu = content(kData + "grains-spheres.0.vtu");
+  write("grains.vtu", vtu.substr(0, vtu.size() / 2));
+  refuses("--bed grains.vtu --angle drum", "grains.vtu: ");
+  std::string renamed = vtu;
+  renamed.replace(renamed.find("\"radii\""), 7, "\"sizes\"");
+  write("grains.vtu", renamed);
+  refuses("--bed grains.vtu --angle drum", "has no array 'radii'");
+}
+
+}  // namespace

@@ -1,0 +1,298 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// `vielto report` through its command line: what the page and the files beside it hold, what is refused, and what a
+// browser makes of the page.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "tests/rigs/synthetic_record.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+const fs::path kSource = VIELTO_SOURCE_DIR;
+const std::string kVielto = "'" VIELTO_BIN_DIR "/vielto'";
+
+std::string text_of(const fs::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::ostringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+std::size_t count(const std::string& text, const std::string& part) {
+  std::size_t n = 0;
+  for (std::size_t at = 0; (at = text.find(part, at)) != std::string::npos; at += part.size()) ++n;
+  return n;
+}
+
+// The points of one series of a plot's CSV.
+std::vector<std::array<double, 2>> series(const fs::path& path, const std::string& name) {
+  std::vector<std::array<double, 2>> points;
+  std::istringstream in(text_of(path));
+  for (std::string line; std::getline(in, line);)
+    if (line.rfind(name + ",", 0) == 0) {
+      std::array<double, 2> point{};
+      EXPECT_EQ(std::sscanf(line.c_str() + name.size() + 1, "%lf,%lf", &point[0], &point[1]), 2) << line;
+      points.push_back(point);
+    }
+  return points;
+}
+
+class Report : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::temp_directory_path() /
+              (std::string("vielto_report_") + testing::UnitTest::GetInstance()->current_test_info()->name());
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  int run(const std::string& command) {
+    const int status =
+        std::system(("cd '" + folder_.string() + "' && env -u DISPLAY " + command + " >out.txt 2>err.txt").c_str());
+    err_ = text_of(folder_ / "err.txt");
+    return WEXITSTATUS(status);
+  }
+  int report(const std::string& arguments) { return run(kVielto + " report " + arguments); }
+  void write(const std::string& name, const std::string& text) {
+    fs::create_directories((folder_ / name).parent_path());
+    std::ofstream(folder_ / name, std::ios::binary) << text;
+  }
+
+  // A finished run: its record, what `vielto post` makes of it, and what `liggghts` writes about itself.
+  void make_run(const std::string& name, double speed = 1.21) {
+    SyntheticRecord record;
+    record.noise = 0.02;
+    record.speed = speed;
+    record.write(folder_ / name);
+    ASSERT_EQ(run(kVielto + " post " + name), 0) << err_;
+    write(
+        name + "/run.json",
+        R"({"status": "complete", "command": "liggghts -in in.mixer -var seed 7", "parameters": {"seed": "7", "fill": "0.15"},
+      "versions": {"vielto": "0.1.0"}, "hashes": {"mixer.par": "499b6742"}})");
+  }
+  void make_fit(const std::string& name) {
+    fs::create_directories(folder_ / name);
+    fs::copy_file(kSource / "cases/mixer/results/thesis_equation.csv", folder_ / name / "grid.csv");
+    ASSERT_EQ(run(kVielto + " fit " + name + "/grid.csv --bulk-density 825 --bulk-cohesion 6175 --out " + name +
+                  "/equation.json"),
+              0)
+        << err_;
+  }
+  void make_shear_box(const std::string& name) {
+    std::string rows = "# schema=1\n# rig=shearbox\ntime_s,displacement_m,shear_force_N,plate_force_N\n";
+    for (int i = 1; i <= 40; ++i) {
+      const double t = 0.01 * i;
+      rows += std::to_string(t) + "," + std::to_string(0.05 * t) + "," + std::to_string(30 * (1 - std::exp(-10 * t))) +
+              ",70.6\n";
+    }
+    write(name + "/shear.csv", rows);
+    write(name + "/post/shear.json",
+          R"({"schema": 1, "shear_stress_peak_Pa": 8333.3, "notes": ["</script><script>alert(1)</script>"]})");
+  }
+
+  fs::path folder_;
+  std::string err_;
+};
+
+// Expected from the generator's own numbers, not from the program: 4 paddles of 0.15 N m, stems 0.1 and shaft 0.05 in a
+// slice of 4 of 22 paddles; power 2 pi n T.
+TEST_F(Report, OfOneRunHoldsItsNumbersPlotsAndProvenance) {
+  make_run("run");
+  ASSERT_EQ(report("run"), 0) << err_;
+  const fs::path out = folder_ / "run/report";
+  const double torque = (4 * 0.15 + 0.1 + 0.05) * 22 / 4;
+  double mean = 0;
+  const auto points = series(out / "torque_over_time.csv", "torque");
+  ASSERT_EQ(points.size(), 720u);  // ten turns of 72 phases
+  for (const auto& p : points) mean += p[1] / 720;
+  EXPECT_NEAR(mean, torque, 0.02 * 22 / 4 / std::sqrt(720.0) * 4);  // four standard errors of white noise
+  EXPECT_NEAR(points.back()[0], 10 / 1.21 * (1 - 0.5 / 720), 1e-6);
+  const auto phases = series(out / "torque_over_phase.csv", "rotor");
+  ASSERT_EQ(phases.size(), 72u);
+  double of_phases = 0;
+  for (const auto& p : phases) of_phases += p[1] / 72;
+  EXPECT_NEAR(of_phases, torque, 0.02);
+  const auto power = series(out / "power_over_speed.csv", "l = 0.15");
+  ASSERT_EQ(power.size(), 1u);
+  EXPECT_NEAR(power[0][1], 2 * std::acos(-1.0) * 1.21 * torque, 0.2);
+  // The published equation at its fastest speed, from the definitions: N_PC C_h L^3 n.
+  const double n = 1.58, cohesion = 0.114 * 0.114 * n * n * 825 / 6175, froude = 0.114 * n * n / 9.81;
+  const double published =
+      15.68 * std::pow(0.15, 1.04) * std::pow(cohesion, 0.1) * std::pow(froude, -0.25) * 6175 * std::pow(0.114, 3) * n;
+  const auto line = series(out / "power_over_speed.csv", "l = 0.15; published equation");
+  ASSERT_FALSE(line.empty());
+  EXPECT_NEAR(line.back()[0], n, 1e-12);
+  EXPECT_NEAR(line.back()[1], published, 1e-6 * published);
+
+  for (const char* plot : {"power_over_speed", "power_over_fill", "parity", "torque_over_time", "torque_over_phase"}) {
+    const std::string svg = text_of(out / (std::string(plot) + ".svg"));
+    EXPECT_EQ(svg.rfind("<svg", 0), 0u) << plot;
+    EXPECT_GT(count(svg, "<path"), 5u) << plot;
+  }
+  const std::string page = text_of(out / "report.html");
+  for (const char* part : {"Mixing power", "liggghts -in in.mixer -var seed 7", "499b6742", "version of vielto",
+                           "Provisional", "post/power.json"})
+    EXPECT_NE(page.find(part), std::string::npos) << part;
+  EXPECT_NE(err_.find("no picture of run"), std::string::npos) << err_;
+  EXPECT_EQ(count(page, "src=\"http"), 0u);
+  EXPECT_FALSE(fs::exists(folder_ / "run/report.partial"));
+  ASSERT_EQ(report("run"), 0) << err_;  // over the old report
+}
+
+TEST_F(Report, OfACampaignListsItsRuns) {
+  make_run("grid/slow", 0.48);
+  make_run("grid/fast", 1.58);
+  ASSERT_EQ(report("grid"), 0) << err_;
+  const std::string page = text_of(folder_ / "grid/report/report.html");
+  EXPECT_EQ(count(page, "<details>"), 3u);  // each run, and the parameters of both
+  EXPECT_NE(page.find("Runs evaluated"), std::string::npos);
+  EXPECT_TRUE(fs::exists(folder_ / "grid/report/slow_torque_over_time.svg"));
+  EXPECT_TRUE(fs::exists(folder_ / "grid/report/fast_torque_over_phase.csv"));
+  EXPECT_EQ(series(folder_ / "grid/report/power_over_speed.csv", "l = 0.15").size(), 2u);
+}
+
+TEST_F(Report, OfAFitShowsParityAndResidualsOverEveryGroup) {
+  make_fit("equation");
+  ASSERT_EQ(report("equation --out page"), 0) << err_;
+  for (const char* group : {"speed", "l", "N_C", "Fr_M"})
+    EXPECT_TRUE(fs::exists(folder_ / "page" / (std::string("equation_residuals_") + group + ".svg"))) << group;
+  // The table is the booklet's equation itself, so the fit lies on it: 16 rows on the line of parity.
+  const auto parity = series(folder_ / "page/equation_parity.csv", "rows fitted");
+  ASSERT_EQ(parity.size(), 16u);
+  for (const auto& p : parity) EXPECT_NEAR(p[1] / p[0], 1, 1e-4);
+  const auto band = series(folder_ / "page/equation_parity.csv", "± 14.5 %");
+  ASSERT_EQ(band.size(), 4u);
+  EXPECT_NEAR(band[1][1] / band[1][0], 1.145, 1e-12);
+  EXPECT_NEAR(band[3][1] / band[3][0], 0.855, 1e-12);
+  const std::string page = text_of(folder_ / "page/report.html");
+  EXPECT_NE(page.find("B2+B3"), std::string::npos);
+  EXPECT_NE(page.find("not determined"), std::string::npos);
+}
+
+TEST_F(Report, OfAnotherRigDrawsItsColumnsByUnit) {
+  make_shear_box("box");
+  ASSERT_EQ(report("box"), 0) << err_;
+  const fs::path out = folder_ / "box/report";
+  const auto force = series(out / "shear_csv_N.csv", "shear_force_N");
+  ASSERT_EQ(force.size(), 40u);
+  EXPECT_NEAR(force.back()[0], 0.4, 1e-9);
+  EXPECT_NEAR(force.back()[1], 30 * (1 - std::exp(-4.0)), 1e-4);
+  const std::string page = text_of(out / "report.html");
+  EXPECT_NE(page.find("shear_stress_peak_Pa"), std::string::npos);
+  EXPECT_EQ(page.find("<script>alert"), std::string::npos);  // text from files is text
+}
+
+TEST_F(Report, RefusesInOneLineAndLeavesNothing) {
+  make_run("run");
+  fs::create_directories(folder_ / "empty");
+  write("broken/torque.csv", text_of(folder_ / "run/torque.csv").substr(0, 3000));
+  write("number/post/power.json", "{\"power_W\": ");
+  fs::copy_file(folder_ / "run/torque.csv", folder_ / "number/torque.csv");
+  write("table/shear.csv", "time_s,force_N\n1,2\n3\n");
+  write("other/letter.txt", "mine");
+  const std::map<std::string, std::string> cases = {{"nowhere", "is no folder"},
+                                                    {"empty", "holds nothing to report"},
+                                                    {"broken", "torque.csv, line "},
+                                                    {"number", "power.json: is no power.json"},
+                                                    {"table", "shear.csv, line 3: has 1 fields for 2 columns"},
+                                                    {"run --out other", "other: exists and is no report"}};
+  for (const auto& [arguments, reason] : cases) {
+    EXPECT_EQ(report(arguments), 2) << arguments;
+    EXPECT_EQ(count(err_, "\n"), 1u) << arguments << ": " << err_;
+    EXPECT_NE(err_.find(reason), std::string::npos) << arguments << ": " << err_;
+  }
+  for (const auto& entry : fs::recursive_directory_iterator(folder_)) {
+    EXPECT_NE(entry.path().filename(), "report") << entry.path();
+    EXPECT_NE(entry.path().extension(), ".partial") << entry.path();
+  }
+  EXPECT_EQ(text_of(folder_ / "other/letter.txt"), "mine");
+}
+
+// A program installed without the plotting library (built without a network) says where to get it, and makes the rest.
+TEST_F(Report, WithoutThePlottingLibraryAsksForIt) {
+  make_run("run");
+  fs::create_directories(folder_ / "install/bin");
+  fs::create_directories(folder_ / "install/share/vielto/report");
+  fs::copy_file(VIELTO_BIN_DIR "/vielto", folder_ / "install/bin/vielto");
+  for (const char* file : {"page.css", "page.js", "svg.js"})
+    fs::copy_file(kSource / "report/web" / file, folder_ / "install/share/vielto/report" / file);
+  EXPECT_EQ(run("install/bin/vielto report run"), 2);
+  EXPECT_NE(err_.find("scripts/get-echarts"), std::string::npos) << err_;
+  EXPECT_FALSE(fs::exists(folder_ / "run/report"));
+  ASSERT_EQ(run("install/bin/vielto report run --no-plots"), 0) << err_;
+  EXPECT_NE(text_of(folder_ / "run/report/report.html").find("The plots were left out"), std::string::npos);
+  EXPECT_TRUE(fs::exists(folder_ / "run/report/parity.csv"));
+  EXPECT_FALSE(fs::exists(folder_ / "run/report/parity.svg"));
+}
+
+class ReportInABrowser : public Report {
+ protected:
+  void SetUp() override {
+    Report::SetUp();
+    if (std::system("chromium --version >/dev/null 2>&1 && chromedriver --version >/dev/null 2>&1") != 0)
+      GTEST_SKIP() << "needs the packages of scripts/packages/browser.txt";
+  }
+  json look(const std::string& page) {
+    EXPECT_EQ(run("/usr/bin/python3 '" + (kSource / "tests/cli/report_browser.py").string() + "' " + page + " shots"),
+              0)
+        << err_;
+    return json::parse(text_of(folder_ / "out.txt"), nullptr, false);
+  }
+};
+
+TEST_F(ReportInABrowser, OpensOfflineOnPhoneAndDesktopLightAndDark) {
+  make_run("all/run");
+  make_fit("all");
+  make_shear_box("all");
+  ASSERT_EQ(report("all"), 0) << err_;
+  const json seen = look("all/report/report.html");
+  ASSERT_EQ(seen.size(), 4u) << seen.dump();
+  for (const auto& [window, page] : seen.items()) {
+    EXPECT_TRUE(page["console"].empty()) << window << page["console"];
+    EXPECT_TRUE(page["requests"].empty()) << window << page["requests"];
+    EXPECT_EQ(page["page_loads"], 1) << window;  // the log of requests does record
+    EXPECT_LE(page["opened"]["width"], page["window"]) << window;
+    EXPECT_TRUE(page["opened"]["outside"].empty()) << window << page["opened"]["outside"];
+    EXPECT_EQ(page["broken_pictures"], 0) << window;
+    std::map<std::string, json> plots;
+    for (const json& plot : page["opened"]["plots"]) plots[plot["name"]] = plot;
+    for (const char* name : {"power_over_speed", "parity", "run_torque_over_time", "run_torque_over_phase",
+                             "equation_parity", "equation_power_over_fill", "equation_residuals_N_C", "shear_csv_N"}) {
+      ASSERT_TRUE(plots.count(name)) << name;
+      EXPECT_GT(plots[name]["marks"], 8) << window << " " << name;
+      EXPECT_GT(plots[name]["words"].size(), 6u) << window << " " << name;
+    }
+    const json& words = plots["parity"]["words"];
+    EXPECT_NE(std::find(words.begin(), words.end(), "published equation / W"), words.end()) << window;
+  }
+  EXPECT_NE(seen["390 light"]["background"], seen["390 dark"]["background"]);
+}
+
+// The watch itself: a page that breaks every rule is seen to.
+TEST_F(ReportInABrowser, ABadPageWouldBeSeen) {
+  write("bad.html",
+        "<!DOCTYPE html><title>bad</title><link rel=icon href='data:,'><main><div style='width:2000px'>wide</div>"
+        "<img src='http://127.0.0.1:9/x.png'></main><script>console.error('oh');</script>");
+  const json seen = look("bad.html");
+  for (const auto& [window, page] : seen.items()) {
+    EXPECT_GE(page["console"].size(), 1u) << window;
+    EXPECT_EQ(page["requests"].size(), 1u) << window << page["requests"];
+    EXPECT_FALSE(page["outside"].empty()) << window;
+    EXPECT_EQ(page["broken_pictures"], 1) << window;
+  }
+}
+
+}  // namespace

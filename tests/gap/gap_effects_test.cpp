@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The effect files: all of the protocol's, what each changes, and that the rigs know the switches.
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <set>
+#include <sstream>
+
+#include "core/par_file.h"
+#include "gap/library/effect.h"
+
+namespace {
+
+using namespace vielto;
+using namespace vielto::gap;
+
+const std::string kGap = VIELTO_SOURCE_DIR "/libraries/";
+
+std::vector<Effect> effects() { return read_effects(kGap + "effects", Settings::read(kGap + "diagnosis.toml")); }
+
+TEST(GapEffects, AllOfTheProtocol) {
+  std::set<std::string> names;
+  for (const Effect& e : effects()) {
+    names.insert(e.name);
+    EXPECT_GE(e.source.size(), 10u) << e.name;
+  }
+  EXPECT_EQ(names, (std::set<std::string>{"cohesion", "shape", "wall_friction", "size_spread", "dissipation",
+                                          "air_drag", "paddle_clearance", "wall_rolling", "drive_loss", "idle_drift",
+                                          "speed_slip", "fill_error", "sensor_gain", "coarse_grain", "soft_grain",
+                                          "slice_ends", "faceting"}));
+}
+
+// A switch stands in the mixer's parameters or a card, or the page lists it as missing.
+TEST(GapEffects, TheMixerKnowsEverySwitchOrThePageSaysThatItDoesNot) {
+  const std::string cases = VIELTO_SOURCE_DIR "/cases/", cards = VIELTO_SOURCE_DIR "/materials/";
+  const ParFile mixer = ParFile::read(cases + "mixer/mixer.par"), law = ParFile::read(cases + "law.par"),
+                grain = ParFile::read(cards + "hulled_millet.par"), wall = ParFile::read(cards + "steel.par");
+  std::ifstream in(std::string(VIELTO_SOURCE_DIR) + "/gap/README.md");
+  std::ostringstream page;
+  page << in.rdbuf();
+  for (const Effect& e : effects())
+    for (const VarChange& v : e.vars) {
+      if (!v.acts_on("mixer")) continue;
+      const bool known = mixer.has(v.name) || law.has(v.name) || grain.has(v.name) ||
+                         (v.name.rfind("wall_", 0) == 0 && wall.has(v.name.substr(5)));
+      if (!known) {
+        EXPECT_NE(page.str().find("| `" + v.name + "` |"), std::string::npos) << e.name << ": " << v.name;
+      }
+    }
+}
+
+TEST(GapEffects, RulesByHand) {
+  VarChange v;
+  v.factor = 2;
+  const std::pair<VarRule, const char*> rules[] = {{VarRule::value, "1"},
+                                                   {VarRule::offset, "5"},
+                                                   {VarRule::scale, "8"},
+                                                   {VarRule::power10, "40"},
+                                                   {VarRule::divide, "2"}};
+  for (const auto& [rule, text] : rules) {
+    v.rule = rule;
+    EXPECT_EQ(v.text(4, 0.5), text);
+  }
+  v.rule = VarRule::divide;
+  v.whole = true;
+  EXPECT_EQ(v.text(48, 0.2), "34");  // 48/1.4 = 34.3
+}
+
+TEST(GapEffects, TransformsByHand) {
+  Observation row;
+  row.speed = 4;
+  Transform t;
+  t.factor = 3;
+  t.power_of = {{"speed", 0.5}};
+  t.reference = {{"speed", 1.0}};
+  EXPECT_DOUBLE_EQ(t.amount(row, 0.1), 0.6);
+  EXPECT_EQ(t.amount(row, 0), 0);
+}
+
+}  // namespace
