@@ -30,7 +30,7 @@
 #include "engine/wall_loop.h"
 #include "engine/private_access.h"
 #include "engine/pair_loop.h"
-#include "engine/registration.h"
+#include "plugin/registration.h"
 // clang-format on
 
 using namespace LAMMPS_NS;

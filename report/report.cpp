@@ -19,7 +19,7 @@
 #include "report/equation_pages.h"
 #include "report/file_pages.h"
 #include "report/run_pages.h"
-#include "rigs/picture.h"
+#include "rigs/mixer/mixer_picture.h"
 
 namespace vielto {
 namespace {
@@ -101,9 +101,9 @@ std::string rig_picture(const fs::path& run, const fs::path& out, const std::str
   const char* display = std::getenv("DISPLAY");
   const fs::path drawn = run / "post/grains.png";
   if (display && *display) {
-    std::optional<TorqueRecord> record;
-    if (is_mixer_run(run.string())) record = read_torque_record((run / "torque.csv").string());
-    if (draw_rig(run.string(), record ? &*record : nullptr, made.string())) return made.string();
+    std::optional<TurningRotor> rotor;
+    if (is_mixer_run(run.string())) rotor = turning_rotor(read_torque_record((run / "torque.csv").string()));
+    if (draw_rig(run.string(), rotor ? &*rotor : nullptr, made.string())) return made.string();
     if (!fs::exists(drawn)) lines.push_back(fmt::format("no picture of {}: it holds no mesh/*.stl", run.string()));
   } else if (!fs::exists(drawn)) {
     lines.push_back(fmt::format(

@@ -7,8 +7,8 @@
 #include "commands.h"
 #include "core/bad_input.h"
 #include "core/record_file.h"
+#include "picture/render.h"
 #include "post.h"
-#include "rigs/picture.h"
 
 namespace vielto {
 namespace {

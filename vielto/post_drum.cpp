@@ -7,7 +7,8 @@
 #include "core/csv.h"
 #include "post.h"
 #include "rigs/drum/bed_output.h"
-#include "rigs/picture.h"
+#include "rigs/drum/bed_picture.h"
+#include "rigs/rig_picture.h"
 
 namespace vielto {
 

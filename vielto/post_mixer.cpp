@@ -5,10 +5,10 @@
 
 #include "core/csv.h"
 #include "post.h"
+#include "rigs/mixer/mixer_picture.h"
 #include "rigs/mixer/mixing_power.h"
 #include "rigs/mixer/mixing_power_output.h"
 #include "rigs/mixer/torque_record.h"
-#include "rigs/picture.h"
 
 namespace vielto {
 
@@ -34,7 +34,9 @@ void post_mixer(const fs::path& path, const PostOptions& options) {
   if (options.pictures) {
     draw_torque(loaded, power, (folder / "torque.png").string());
     const std::string run = path.parent_path().string();
-    if (!draw_grains(run, loaded, (folder / "grains.png").string()))
+    const TurningRotor rotor = turning_rotor(loaded);
+    const bool grains = has_dump(run) && fs::exists(fs::path(run) / "mesh/drum.stl");
+    if (!grains || !draw_rig(run, &rotor, (folder / "grains.png").string()))
       std::fprintf(stderr, "vielto: no picture of the grains: %s holds no vtk/*.vtk or no mesh/drum.stl\n",
                    run.empty() ? "the folder" : run.c_str());
   }

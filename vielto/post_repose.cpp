@@ -6,8 +6,9 @@
 
 #include "core/csv.h"
 #include "post.h"
-#include "rigs/picture.h"
+#include "rigs/repose/heap_picture.h"
 #include "rigs/repose/repose_output.h"
+#include "rigs/rig_picture.h"
 
 namespace vielto {
 

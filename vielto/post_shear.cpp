@@ -4,7 +4,8 @@
 
 #include "core/csv.h"
 #include "post.h"
-#include "rigs/picture.h"
+#include "rigs/rig_picture.h"
+#include "rigs/shearbox/shear_picture.h"
 #include "rigs/shearbox/shear_result_output.h"
 
 namespace vielto {

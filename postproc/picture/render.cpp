@@ -11,7 +11,6 @@
 #include <stdexcept>
 
 #include "core/bad_input.h"
-#include "rigs/picture.h"
 
 namespace vielto {
 

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+#include "rigs/drum/bed_picture.h"
+
 #include <fmt/format.h>
 
 #include <cmath>
 
 #include "core/mixing_numbers.h"
 #include "picture/chart.h"
-#include "rigs/picture.h"
 
 namespace vielto {
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+#include "rigs/repose/heap_picture.h"
+
 #include <fmt/format.h>
 
 #include "picture/chart.h"
-#include "rigs/picture.h"
 
 namespace vielto {
 namespace {

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+#include "rigs/shearbox/shear_picture.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 
 #include "picture/chart.h"
-#include "rigs/picture.h"
 
 namespace vielto {
 namespace {

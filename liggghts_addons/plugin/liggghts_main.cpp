@@ -8,7 +8,7 @@
 #include <string>
 #include <system_error>
 
-#include "engine/registration.h"
+#include "plugin/registration.h"
 #include "input.h"
 #include "lammps.h"
 #include "signal_handling.h"

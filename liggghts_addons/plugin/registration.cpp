@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "engine/registration.h"
+#include "plugin/registration.h"
 
 // clang-format off
 // fix_insert_stream.h has to precede pair_gran_base.h: that header uses a class which it only declares

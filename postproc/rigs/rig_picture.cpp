@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+#include "rigs/rig_picture.h"
+
 #include <fmt/format.h>
 #include <vtkActor.h>
 #include <vtkCamera.h>
@@ -30,7 +32,6 @@
 
 #include "core/bad_input.h"
 #include "picture/render.h"
-#include "rigs/picture.h"
 
 namespace vielto {
 namespace {
@@ -201,20 +202,15 @@ bool add_grains(vtkRenderer* renderer, vtkPolyData* grains) {
 
 }  // namespace
 
-bool draw_grains(const std::string& run, const TorqueRecord& record, const std::string& path) {
-  if (!last_dump(fs::path(run) / "vtk", ".vtk") || !fs::exists(fs::path(run) / "mesh/drum.stl")) return false;
-  return draw_rig(run, &record, path);
-}
+bool has_dump(const std::string& run) { return last_dump(fs::path(run) / "vtk", ".vtk").has_value(); }
 
-bool draw_rig(const std::string& run, const TorqueRecord* record, const std::string& path) {
+bool draw_rig(const std::string& run, const TurningRotor* rotor, const std::string& path) {
   const auto dump = last_dump(fs::path(run) / "vtk", ".vtk");
   const double turns =
-      record && dump
-          ? std::max(0.0, (static_cast<double>(dump->step) - record->start_step) / record->header.steps_per_turn)
-          : 0;
+      rotor && dump ? std::max(0.0, (static_cast<double>(dump->step) - rotor->start_step) / rotor->steps_per_turn) : 0;
   vtkNew<vtkRenderer> renderer;
   renderer->SetBackground(1, 1, 1);
-  if (!add_parts(renderer, run, record ? std::optional(360 * turns) : std::nullopt)) return false;
+  if (!add_parts(renderer, run, rotor ? std::optional(360 * turns) : std::nullopt)) return false;
   const char* title = "The rig";
   double shown[6];
   renderer->ComputeVisiblePropBounds(shown);
@@ -229,14 +225,8 @@ bool draw_rig(const std::string& run, const TorqueRecord* record, const std::str
     }
   }
   renderer->AddActor2D(caption(title, 34, 40, kHeight - 70));
-  if (record) {
-    const TorqueRecordHeader& h = record->header;
-    renderer->AddActor2D(caption(
-        fmt::format("{}{}, fill {}, {} 1/s, {}, after {:.2f} turns", h.material, h.provisional ? " (provisional)" : "",
-                    h.fill, h.speed,
-                    h.slice > 0 ? fmt::format("slice of {} of {} paddles", h.slice, h.paddles) : "whole drum", turns),
-        24, 40, kHeight - 110));
-  }
+  if (rotor)
+    renderer->AddActor2D(caption(fmt::format("{}, after {:.2f} turns", rotor->caption, turns), 24, 40, kHeight - 110));
 
   // A little from above; a shaft from its end for the most part, a shear box across the direction of shear (x).
   vtkCamera* camera = renderer->GetActiveCamera();

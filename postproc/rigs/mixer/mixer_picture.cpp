@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+#include "rigs/mixer/mixer_picture.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -6,7 +8,6 @@
 
 #include "core/steady_part.h"
 #include "picture/chart.h"
-#include "rigs/picture.h"
 
 namespace vielto {
 void draw_torque(const TorqueRecord& record, const MixingPower& power, const std::string& path) {
@@ -42,6 +43,17 @@ void draw_torque(const TorqueRecord& record, const MixingPower& power, const std
                         (record.first_turn + record.turns) * turn_time);
   chart.vertical_axis("torque / (N m)", low, high);
   chart.write(path);
+}
+
+TurningRotor turning_rotor(const TorqueRecord& record) {
+  const TorqueRecordHeader& h = record.header;
+  TurningRotor rotor;
+  rotor.start_step = static_cast<double>(record.start_step);
+  rotor.steps_per_turn = static_cast<double>(h.steps_per_turn);
+  rotor.caption =
+      fmt::format("{}{}, fill {}, {} 1/s, {}", h.material, h.provisional ? " (provisional)" : "", h.fill, h.speed,
+                  h.slice > 0 ? fmt::format("slice of {} of {} paddles", h.slice, h.paddles) : "whole drum");
+  return rotor;
 }
 
 }  // namespace vielto

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Picture of a rig with its grains, for people.
+#pragma once
+
+#include <string>
+
+namespace vielto {
+
+// How far a rotor has turned since its start, from the step of a dump, and what is written over the picture.
+struct TurningRotor {
+  double start_step = 0, steps_per_turn = 1;
+  std::string caption;  // without the turns, which are added
+};
+
+// The last dump of grains in RUN/vtk (`dump custom/vtk` with v and radius), coloured by speed, in the meshes of
+// RUN/mesh: the drum translucent, every other part turned about the x axis to where the rotor stood; without a rotor
+// nothing is turned. Draws what is there of grains and meshes; false if there is no mesh. Errors: BadInput for a dump
+// without radius or velocity; std::runtime_error if the file cannot be written.
+bool draw_rig(const std::string& run, const TurningRotor* rotor, const std::string& path);
+
+// Whether RUN holds a dump of grains.
+bool has_dump(const std::string& run);
+
+}  // namespace vielto
