@@ -10,7 +10,7 @@
 //   mixer     power_loaded, power_idle, power (W), torque_ripple (1)
 //   shearbox  shear_stress_peak, shear_stress_steady (Pa), plate_force_fluctuation (1)
 //   repose    angle (deg)
-//   drum      angle (deg)
+//   drum      angle, angle_mid, angle_upper, angle_lower (deg)
 //   bench     shaft_speed (1/s), loaded_mass (kg), zero_drift (W), dead_weight_gain (1), restitution (1),
 //             wall_angle (deg)
 //
