@@ -24,6 +24,7 @@ void post_drum(const fs::path& path, const PostOptions& options) {
   // First what may still be refused.
   write_observations((folder / "observations.csv").string(), bed_observations(bed, label));
   write_whole_file((folder / "looks.csv").string(), bed_looks_csv(bed));
+  if (bed.surface) write_whole_file((folder / "surface.csv").string(), bed_surface_csv(*bed.surface));
   write_whole_file((folder / "table.txt").string(), table);
   write_whole_file((folder / "drum.json").string(), json);
   if (options.pictures) {

@@ -91,6 +91,24 @@ TEST_F(BedAngleOf, ATiltedDrumIsLookedAtNextToItsLowerEnd) {
   for (const Grain& g : tilted.last) EXPECT_LT(g.x[0], kEndDiameters * kDiameter);
 }
 
+// A plane has one slope, whichever window it is seen through; too few looks, or a tilted axis, show none. Half a circle
+// of grains is half of the section, but for the grains' own roundness at its edges.
+TEST_F(BedAngleOf, APlaneHasItsSlopeInEveryWindow) {
+  std::mt19937_64 random(9);
+  for (int k = 1; k <= 18; ++k) look(k, 18, 0, 36, 36, random, 12000);
+  const BedAngle bed = read_bed_angle(first());
+  ASSERT_TRUE(bed.surface) << bed.no_surface;
+  for (const SurfaceWindow& window : kSurfaceWindows) {
+    EXPECT_LT(bed.surface->u.*window.angle, 0.5) << window.observable;
+    EXPECT_NEAR(bed.surface->angles.*window.angle, 36, 4 * bed.surface->u.*window.angle) << window.observable;
+  }
+  EXPECT_NEAR(bed.surface->area.value, 0.5, 0.02);
+  for (int k = 1; k <= 17; ++k) look(k, 17, 0, 36, 36, random);
+  EXPECT_FALSE(read_bed_angle(first()).surface);
+  for (int k = 1; k <= 18; ++k) look(k, 18, 45, 36, 36, random);
+  EXPECT_EQ(read_bed_angle(first()).no_surface, "the axis is tilted");
+}
+
 TEST_F(BedAngleOf, RefusesLooksThatAreNotThereOrOfAnotherRun) {
   std::mt19937_64 random(5);
   look(1, 3, 0, 30, 30, random);

@@ -17,7 +17,7 @@ constexpr double kLeastU = 1e-6;
 
 nlohmann::ordered_json bed_json(const BedAngle& bed) {
   const BedHeader& h = bed.header;
-  return {
+  nlohmann::ordered_json json = {
       {"schema", 1},
       {"rig", "drum"},
       {"material", h.material},
@@ -37,6 +37,14 @@ nlohmann::ordered_json bed_json(const BedAngle& bed) {
       {"looks", bed.looks.size()},
       {"dt_over_tc", h.dt_over_tc},
   };
+  if (!bed.surface) return json;
+  for (const SurfaceWindow& window : kSurfaceWindows) {
+    json[fmt::format("{}_deg", window.observable)] = bed.surface->angles.*window.angle;
+    json[fmt::format("{}_u_deg", window.observable)] = bed.surface->u.*window.angle;
+  }
+  json["bed_area"] = bed.surface->area.value;
+  json["bed_area_u"] = bed.surface->area.u;
+  return json;
 }
 
 std::string bed_table(const BedAngle& bed) {
@@ -50,6 +58,16 @@ std::string bed_table(const BedAngle& bed) {
   for (const BedLook& look : bed.looks)
     text += fmt::format("  {:<44}{:>12.5g}{:>12.2g}  deg\n", fmt::format("  after {:.3f} turns", look.turn),
                         look.angle.value, look.angle.u);
+  if (bed.surface) {
+    for (const SurfaceWindow& window : kSurfaceWindows)
+      text += fmt::format("  {:<44}{:>12.5g}{:>12.2g}  deg\n",
+                          fmt::format("{}, {} < x/R < {}", window.observable, window.from, window.to),
+                          bed.surface->angles.*window.angle, bed.surface->u.*window.angle);
+    text += fmt::format("  {:<44}{:>12.5g}{:>12.2g}  1\n", "bed over the drum's section", bed.surface->area.value,
+                        bed.surface->area.u);
+  } else {
+    text += fmt::format("  no slopes of the surface: {}\n", bed.no_surface);
+  }
   text += fmt::format("  {:<44}{:>12.5g}{:>12}  1, limit {}\n", "time step over t_c", h.dt_over_tc, "", kMostDtOverTc);
   return text;
 }
@@ -58,6 +76,12 @@ std::string bed_looks_csv(const BedAngle& bed) {
   std::string text = "turn,angle_deg,u_deg\n";
   for (const BedLook& look : bed.looks)
     text += fmt::format("{:.9g},{:.9g},{:.9g}\n", look.turn, look.angle.value, look.angle.u);
+  return text;
+}
+
+std::string bed_surface_csv(const BedSurface& surface) {
+  std::string text = "x_m,y_m\n";
+  for (const SurfacePoint& p : surface.points) text += fmt::format("{:.9g},{:.9g}\n", p.x, p.y);
   return text;
 }
 
@@ -77,7 +101,15 @@ std::vector<Observation> bed_observations(const BedAngle& bed, const TestLabel& 
   row.moisture = label.moisture;
   row.wall = label.wall.empty() ? h.wall : label.wall;
   row.material = h.material;
-  return {row};
+  std::vector<Observation> rows = {row};
+  if (!bed.surface) return rows;
+  for (const SurfaceWindow& window : kSurfaceWindows) {
+    row.observable = window.observable;
+    row.value = bed.surface->angles.*window.angle;
+    row.u = std::max(bed.surface->u.*window.angle, kLeastU);
+    rows.push_back(row);
+  }
+  return rows;
 }
 
 }  // namespace vielto
