@@ -82,7 +82,9 @@ ColumnText read_column_text(const std::string& path) {
     if (!comment) fields = fields_of(line);
     std::vector<double> row;
     for (const std::string& field : fields) {
-      const auto value = number_or_nan(field);
+      // between commas nothing may stand where a program had no value, as nan may
+      const bool empty = field.empty() && !text.names.empty();
+      const auto value = empty ? std::numeric_limits<double>::quiet_NaN() : number_or_nan(field);
       if (value) {
         row.push_back(*value);
       } else if (text.rows.empty() && row.empty()) {

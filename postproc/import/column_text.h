@@ -5,7 +5,8 @@
 //     (`# t\t\tTx`, `t,Tx`, `#format x_y_z_r`)
 //   - columns are divided by blanks or tabs, or by commas or semicolons
 //   - empty lines and lines of '#' among the numbers are skipped
-// `nan` is read as such: plot.addData leaves it where a call gave no value. Who takes a column decides about it.
+// `nan` is read as such: plot.addData leaves it where a call gave no value; an empty field between commas is one too.
+// Who takes a column decides about it.
 //
 // Errors: BadInput with file and line for a missing or packed file, no line of names, no numbers, a line with another
 // number of fields, a field that is no number.

@@ -20,7 +20,7 @@ double fall(const std::vector<SurfacePoint>& points, const SurfaceWindow& window
   const double from = window.from * radius, to = window.to * radius;
   std::vector<SurfacePoint> inside;
   for (const SurfacePoint& p : points)
-    if (p.x > from && p.x < to) inside.push_back(p);
+    if (p.x >= from - 1e-9 * radius && p.x <= to + 1e-9 * radius) inside.push_back(p);
   const auto [left, right] =
       std::minmax_element(inside.begin(), inside.end(), [](const auto& a, const auto& b) { return a.x < b.x; });
   if (inside.size() < kLeastPoints || right->x - left->x < kLeastReach * (to - from))

@@ -4,8 +4,8 @@
 // Frame: origin on the drum's axis, x horizontal across it, y up; the drum carries the bed up at negative x, so that
 // the surface falls along x. A drum that turns from +y to +z about its axis x, as in cases/drum, has x = -y and y = z.
 //
-// Slopes: the straight line of least squares through the points of a window of x, as a fall in degrees from the
-// horizontal, for a drum of radius R:
+// Slopes: the straight line of least squares through the points of a window of x, its ends with it, as a fall in
+// degrees from the horizontal, for a drum of radius R:
 //   angle_mid    abs(x) < 0.5 R
 //   angle_upper  -0.62 R < x < -0.24 R
 //   angle_lower  0.24 R < x < 0.62 R
