@@ -84,6 +84,6 @@ INSTANTIATE_TEST_SUITE_P(
                     Refusal{"GrainTooLarge", "-var grainDiameter 0.02", {"grainDiameter is 0.02", "drumLength"}},
                     Refusal{"TwoLooks", "-var frames 2", {"frames is 2", ">= 3"}},
                     Refusal{"TimeStepOverLimit", "-var dtFraction 0.06", {"dtFraction is 0.06", "0.05"}},
-                    Refusal{"UnknownWall", "-var wall glass", {"glass.par", "name an existing"}},
+                    Refusal{"UnknownWall", "-var wall marble", {"marble.par", "name an existing"}},
                     Refusal{"MisspelledParameter", "-var titl 1", {"-var titl", "no such parameter"}}),
     [](const auto& one) { return one.param.name; });
