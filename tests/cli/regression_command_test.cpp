@@ -241,7 +241,7 @@ TEST_F(Regression, CommittedTableOfTheBookletsEquationIsReproduced) {
     text << std::ifstream(file).rdbuf();
     return text.str();
   };
-  EXPECT_EQ(content(path("thesis.csv")), content(kSource + "/cases/mixer/results/thesis_equation.csv"));
+  EXPECT_EQ(content(path("thesis.csv")), content(kSource + "/cases/mixer/results/thesis_equation.observations.csv"));
 }
 
 TEST_F(Regression, TablesAreComparedSideBySide) {

@@ -85,7 +85,7 @@ class Report : public testing::Test {
   }
   void make_fit(const std::string& name) {
     fs::create_directories(folder_ / name);
-    fs::copy_file(kSource / "cases/mixer/results/thesis_equation.csv", folder_ / name / "grid.csv");
+    fs::copy_file(kSource / "cases/mixer/results/thesis_equation.observations.csv", folder_ / name / "grid.csv");
     ASSERT_EQ(run(kVielto + " fit " + name + "/grid.csv --bulk-density 825 --bulk-cohesion 6175 --out " + name +
                   "/equation.json"),
               0)
