@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""workflow/calibrate through its command line, on numbers made from a formula instead of simulations: the posterior is
+"""scripts/calibrate through its command line, on numbers made from a formula instead of simulations: the posterior is
 that of the formula, worked out here on a grid, and what cannot be known stays as wide as the prior."""
 import csv
 import json
@@ -50,7 +50,7 @@ def angle(phi, mu):  # the wall does not matter
 
 
 def calibrate(*words):
-    return subprocess.run([ROOT / "workflow/calibrate", *words], capture_output=True, text=True)
+    return subprocess.run([ROOT / "scripts/calibrate", *words], capture_output=True, text=True)
 
 
 try:
@@ -66,12 +66,12 @@ with tempfile.TemporaryDirectory() as name:
     assert len(rows) == 32 and rows[0]["grainDiameter"] == "0.004"
     for row in rows:
         row["angle_deg"], row["angle_u_deg"] = angle(float(row["frictionAngle"]), float(row["rollingResistance"])), 0.1
-    with open(folder / "numbers.csv", "w", newline="") as file:
+    with open(folder / "runs.csv", "w", newline="") as file:
         writer = csv.DictWriter(file, list(rows[0]))
         writer.writeheader()
         writer.writerows(rows)
     out = folder / "x.posterior.csv"
-    done = calibrate("fit", folder / "plan.toml", folder / "numbers.csv", "--out", out)
+    done = calibrate("fit", folder / "plan.toml", folder / "runs.csv", "--out", out)
     assert done.returncode == 0, done.stderr
     result = json.loads((folder / "x.calibration.json").read_text())
 
@@ -107,7 +107,7 @@ with tempfile.TemporaryDirectory() as name:
     part = list(csv.DictReader((folder / "part.csv").open()))
     assert 10 < len(part) < 32 and all(float(row["frictionAngle"]) < 30 for row in part), part
     assert max(phis) > 31, phis
-    done = calibrate("fit", folder / "part.toml", folder / "numbers.csv", "--out", folder / "part.posterior.csv")
+    done = calibrate("fit", folder / "part.toml", folder / "runs.csv", "--out", folder / "part.posterior.csv")
     assert done.returncode == 0, done.stderr
     assert all(float(m["frictionAngle"]) < 30 for m in csv.DictReader((folder / "part.posterior.csv").open()))
 
@@ -129,14 +129,14 @@ vars = {fillFrictionAngle = "phi / 2"}
 
     bad = calibrate("fit", folder / "plan.toml", folder / "none.csv", "--out", folder / "y.posterior.csv")
     assert bad.returncode == 2 and "none.csv: No such file" in bad.stderr, bad
-    (folder / "few.csv").write_text("".join((folder / "numbers.csv").read_text().splitlines(True)[:6]))
+    (folder / "few.csv").write_text("".join((folder / "runs.csv").read_text().splitlines(True)[:6]))
     bad = calibrate("fit", folder / "plan.toml", folder / "few.csv", "--out", folder / "y.posterior.csv")
     assert bad.returncode == 2 and "only 5 runs of repose" in bad.stderr, bad
     (folder / "other.toml").write_text(PLAN.replace("high = 40.0", "high = 45.0"))
-    bad = calibrate("fit", folder / "other.toml", folder / "numbers.csv", "--out", folder / "y.posterior.csv")
+    bad = calibrate("fit", folder / "other.toml", folder / "runs.csv", "--out", folder / "y.posterior.csv")
     assert bad.returncode == 2 and "run the design anew" in bad.stderr, bad
     (folder / "other.toml").write_text(PLAN.replace("value = 25.0", "value = 80.0"))
-    bad = calibrate("fit", folder / "other.toml", folder / "numbers.csv", "--out", folder / "y.posterior.csv")
+    bad = calibrate("fit", folder / "other.toml", folder / "runs.csv", "--out", folder / "y.posterior.csv")
     assert bad.returncode == 2 and "the posterior lies on" in bad.stderr, bad
     assert not (folder / "y.posterior.csv").exists()
 
@@ -160,10 +160,10 @@ vars = {fillFrictionAngle = "phi / 2"}
         )
         assert not (folder / "bad.csv").exists()
     (folder / "bad.toml").write_bytes(bytes(range(256)))
-    numbers = (folder / "numbers.csv").read_text()
+    numbers = (folder / "runs.csv").read_text()
     first = numbers.splitlines(True)[1]
     for words, fault in (
-        (("design", folder / "bad.toml", "--out", folder / "bad.csv"), "write it as TOML"),
+        (("design", folder / "bad.toml", "--out", folder / "bad.csv"), "is no text; name a plan"),
         (("design", folder / "plan.toml", "--out", folder / "none" / "x.csv"), "cannot be written"),
         (("fit", folder / "plan.toml", folder / "bad.toml", "--out", folder / "y.posterior.csv"), "is no CSV table"),
     ):

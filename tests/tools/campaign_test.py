@@ -25,7 +25,7 @@ def campaign(table, out):
 
 def tables(out):
     # conditions and values; not the lines that tell when a run was made
-    return {name: (out / name).read_text() for name in ("observations.csv", "numbers.csv")}
+    return {name: (out / name).read_text() for name in ("observations.csv", "runs.csv")}
 
 
 if not shutil.which("snakemake"):
@@ -129,7 +129,7 @@ with tempfile.TemporaryDirectory(prefix="vielto-campaign-") as name:
     )
     part = subprocess.run(campaign(study, folder / "wedged"), capture_output=True, text=True)
     assert part.returncode == 1 and "not in the tables: wedged; " in part.stderr, part
-    held = (folder / "wedged/numbers.csv").read_text().splitlines()
+    held = (folder / "wedged/runs.csv").read_text().splitlines()
     assert len(held) == 2 and held[1].startswith("fast,"), held
     # nothing to do any more
     study.write_text(STUDY)

@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""workflow/seeds through its command line: means over the seeds of two tables, u by hand, a file that is not there."""
+"""scripts/study seeds through its command line: means over the seeds of two tables, u by hand, a file that is not there."""
 import csv
 import math
 import pathlib
 import subprocess
 import tempfile
 
-SEEDS = pathlib.Path(__file__).resolve().parents[2] / "workflow/seeds"
+STUDY = pathlib.Path(__file__).resolve().parents[2] / "scripts/study"
 HEAD = "test,role,apparatus,observable,value,u,unit\n"
 
 
@@ -14,12 +14,17 @@ def run(test, loaded):
     return f"{test},fit,mixer,power_loaded,{loaded},0.1,W\n{test},fit,mixer,power_idle,10,0.1,W\n"
 
 
+def seeds(*words):
+    *tables, out = words
+    return subprocess.run([STUDY, "seeds", *tables, "--out", out], capture_output=True, text=True)
+
+
 with tempfile.TemporaryDirectory(prefix="vielto-seeds-") as name:
     name = pathlib.Path(name)
     one, two, out = name / "one.csv", name / "two.csv", name / "out.csv"
     one.write_text(HEAD + run("slow_s1", 30.2) + run("fast_s1", 50))
     two.write_text(HEAD + run("slow_s2", 29.8))
-    told = subprocess.run([SEEDS, one, two, out], capture_output=True, text=True)
+    told = seeds(one, two, out)
     assert told.returncode == 0, told.stderr
     rows = {(r["test"], r["observable"]): r for r in csv.DictReader(out.open())}
     slow, fast = rows[("slow", "power")], rows[("fast", "power")]
@@ -29,7 +34,7 @@ with tempfile.TemporaryDirectory(prefix="vielto-seeds-") as name:
     assert slow["u"] == f"{scatter * 20 / math.sqrt(2):.3g}", slow
     assert fast["u"] == f"{scatter * 40:.3g}", fast
     out.unlink()
-    bad = subprocess.run([SEEDS, one, name / "none.csv", out], capture_output=True, text=True)
+    bad = seeds(one, name / "none.csv", out)
     assert bad.returncode == 2 and "none.csv: No such file" in bad.stderr and not out.exists(), bad
     # no table is made of what is no table of seeds; nothing half-written stays
     cases = (
@@ -48,7 +53,7 @@ with tempfile.TemporaryDirectory(prefix="vielto-seeds-") as name:
     )
     for text, fault in cases:
         two.write_text(text)
-        bad = subprocess.run([SEEDS, two, out], capture_output=True, text=True)
+        bad = seeds(two, out)
         assert bad.returncode == 2 and fault in bad.stderr and bad.stderr.count("\n") == 1 and "; " in bad.stderr, (
             text,
             bad,
@@ -61,9 +66,9 @@ with tempfile.TemporaryDirectory(prefix="vielto-seeds-") as name:
         ((one, name), "cannot be written"),
         ((one, name / "none" / "out.csv"), "cannot be written"),
     ):
-        bad = subprocess.run([SEEDS, *words], capture_output=True, text=True)
+        bad = seeds(*words)
         assert bad.returncode == 2 and fault in bad.stderr and bad.stderr.count("\n") == 1, bad
     two.write_text(HEAD.replace("unit", "unit,speed") + "b_s1,fit,mixer,power,1,0.1,W,1\n")
-    bad = subprocess.run([SEEDS, one, two, out], capture_output=True, text=True)
+    bad = seeds(one, two, out)
     assert bad.returncode == 2 and "has other columns than" in bad.stderr, bad
     assert sorted(path.name for path in name.iterdir()) == ["one.csv", "two.csv"]

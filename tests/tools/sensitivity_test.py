@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""workflow/sensitivity through its command line: changes and uncertainties worked out by hand, bad tables."""
+"""scripts/study sensitivity through its command line: changes and uncertainties worked out by hand, bad tables."""
 import csv
 import math
 import pathlib
@@ -15,14 +15,12 @@ def run(name, power, speed="1", fill="0.15"):
 
 
 def sensitivity(*words):
-    return subprocess.run(
-        ["/usr/bin/python3", ROOT / "workflow/sensitivity", *map(str, words)], capture_output=True, text=True
-    )
+    return subprocess.run([ROOT / "scripts/study", "sensitivity", *map(str, words)], capture_output=True, text=True)
 
 
 with tempfile.TemporaryDirectory(prefix="vielto-sensitivity-") as name:
     name = pathlib.Path(name)
-    table, out = name / "numbers.csv", name / "out.csv"
+    table, out = name / "runs.csv", name / "out.csv"
     # base 30 +- 3 % in two seeds, fine 33 +- 3 % in two; whole drum at another speed, one run of each
     good = (
         HEAD

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""workflow/size_effect through its command line: a line known by hand, its uncertainty by the closed form, bad tables."""
+"""scripts/study size-effect through its command line: a line known by hand, its uncertainty by the closed form, bad tables."""
 import math
 import pathlib
 import subprocess
@@ -10,12 +10,12 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 def effect(table, *words):
     return subprocess.run(
-        [ROOT / "workflow/size_effect", table, "--column", "angle_deg", *words], capture_output=True, text=True
+        [ROOT / "scripts/study", "size-effect", table, "--column", "angle_deg", *words], capture_output=True, text=True
     )
 
 
 with tempfile.TemporaryDirectory(prefix="vielto-size-") as name:
-    table = pathlib.Path(name) / "numbers.csv"
+    table = pathlib.Path(name) / "runs.csv"
     # 20 deg + 2500 deg/m d, seeds 0.5 deg to either side at each of two sizes
     rows = [
         f"r{k},{d},{20 + 2500 * d + e}\n"
@@ -44,7 +44,7 @@ with tempfile.TemporaryDirectory(prefix="vielto-size-") as name:
     assert not list(pathlib.Path(name).glob("*.partial*"))
     # runs of another kind are left out by name
     table.write_text("run,grainDiameter,angle_deg\n" + "".join(rows) + "other,0.004,90\n")
-    assert effect(table, "--real", "0.001", "--coarse", "0.004", "--runs", "r").stdout == told.stdout
+    assert effect(table, "--real", "0.001", "--coarse", "0.004", "--names", "r").stdout == told.stdout
     assert effect(table, "--real", "0.001", "--coarse", "0.004").stdout != told.stdout
 
     for text, fault in (
@@ -72,7 +72,7 @@ with tempfile.TemporaryDirectory(prefix="vielto-size-") as name:
     for words, fault in (
         (("--real", "-1"), "--real -1: is no grain diameter"),
         (("--real", "nan"), "--real nan"),
-        (("--real", "0.001", "--runs", "("), "is no regular expression"),
+        (("--real", "0.001", "--names", "("), "is no regular expression"),
         (("--real", "0.001", "--picture", pathlib.Path(name) / "x.foo"), "a picture is .svg or .png"),
         (("--real", "0.001", "--picture", pathlib.Path(name) / "none/x.png"), "cannot be written"),
     ):

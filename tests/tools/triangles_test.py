@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""workflow/triangles through its command line: a power law known by hand, the triangles that bench/run counted, bad tables.
+"""scripts/study triangles through its command line: a power law known by hand, the triangles that bench/run counted, bad tables.
 triangles_test.py BIN"""
 import json
 import math
@@ -15,7 +15,7 @@ HEADER = "run,seed,speed,fill,grainDiameter,drumSegments,shaftSegments,power_W\n
 
 def triangles(table, *words):
     return subprocess.run(
-        [ROOT / "workflow/triangles", table, *words],
+        [ROOT / "scripts/study", "triangles", table, *words],
         capture_output=True,
         text=True,
         env=dict(os.environ, PATH=f"{sys.argv[1]}:{os.environ['PATH']}"),
@@ -23,7 +23,7 @@ def triangles(table, *words):
 
 
 with tempfile.TemporaryDirectory(prefix="vielto-triangles-") as name:
-    table = pathlib.Path(name) / "numbers.csv"
+    table = pathlib.Path(name) / "runs.csv"
     # bench/run counted the triangles of its meshes by itself: 24, 48, 96 chords
     counted = {
         t["triangles"]: t["median"]

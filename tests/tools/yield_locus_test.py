@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""workflow/yield_locus through its command line: a line known by hand, its uncertainty by the closed form, bad tables."""
+"""scripts/study yield-locus through its command line: a line known by hand, its uncertainty by the closed form, bad tables."""
 import math
 import pathlib
 import subprocess
@@ -10,11 +10,11 @@ HEAD = "run,rig,normal_stress_Pa,plane_normal_stress_Pa,shear_stress_steady_Pa,s
 
 
 def locus(*words):
-    return subprocess.run([ROOT / "workflow/yield_locus", *map(str, words)], capture_output=True, text=True)
+    return subprocess.run([ROOT / "scripts/study", "yield-locus", *map(str, words)], capture_output=True, text=True)
 
 
 with tempfile.TemporaryDirectory(prefix="vielto-locus-") as name:
-    table = pathlib.Path(name) / "numbers.csv"
+    table = pathlib.Path(name) / "runs.csv"
     # tau = 200 Pa + 0.6 sigma on the plane, 100 Pa + 0.8 sigma nominal at the peak
     loads = (10000, 20000, 40000)
     rows = [f"p{s},shearbox,{s},{1.1 * s},{200 + 0.66 * s},100,{100 + 0.8 * s},50\n" for s in loads]
