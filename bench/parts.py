@@ -41,7 +41,10 @@ def law(folder, quick, pairs):
         contacts.append((a["pair_contacts"] + a["wall_contacts"]) / (b["pair_contacts"] + b["wall_contacts"]))
     for engine in (ours, stock):
         engine.quit()
-    nanoseconds = lambda t: 1e9 * law_time(t) / t["steps"] / (t["pair_contacts"] + t["wall_contacts"])
+
+    def nanoseconds(t):
+        return 1e9 * law_time(t) / t["steps"] / (t["pair_contacts"] + t["wall_contacts"])
+
     print(
         f"{a['grains']:.0f} grains, {a['pair_contacts']:.0f} + {a['wall_contacts']:.0f} contacts (stock "
         f"{b['pair_contacts']:.0f} + {b['wall_contacts']:.0f}); last pair {nanoseconds(a):.0f} and {nanoseconds(b):.0f} ns a contact"
@@ -94,8 +97,13 @@ def yade(folder, quick, pairs):
         faster.append(b[-1]["run_s"] / b[-1]["steps"] / (a[-1]["run_s"] / a[-1]["steps"]))
     for engine in (ours, theirs):
         engine.quit()
-    mean = lambda ts, name: statistics.mean(t[name] for t in ts)
-    speed = lambda ts: statistics.median(case["grains"] * t["steps"] / t["run_s"] for t in ts)
+
+    def mean(ts, name):
+        return statistics.mean(t[name] for t in ts)
+
+    def speed(ts):
+        return statistics.median(case["grains"] * t["steps"] / t["run_s"] for t in ts)
+
     return {
         "particle_steps_over_yade": dict(
             spread(faster),

@@ -148,7 +148,10 @@ with tempfile.TemporaryDirectory(prefix="vielto-effects-") as name:
     # and where it should
     few, many = grains(baseline), grains(made["coarse_grain"])
     assert abs(len(many) / len(few) * 0.7**3 - 1) < 0.05, (len(few), len(many))  # the same mass
-    spread = lambda r: (sum((x - sum(r) / len(r)) ** 2 for x in r) / len(r)) ** 0.5 / (sum(r) / len(r))
+
+    def spread(r):
+        return (sum((x - sum(r) / len(r)) ** 2 for x in r) / len(r)) ** 0.5 / (sum(r) / len(r))
+
     # three sizes of weights 1/6, 2/3, 1/6 by mass; drawn grain by grain, so that ten per cent is left to chance
     assert spread(grains(made["size_spread"])) > 3 * spread(few), (spread(few), spread(grains(made["size_spread"])))
     ratio = float(header(made["soft_grain"], "dt")) / float(header(baseline, "dt"))

@@ -24,7 +24,7 @@ for block in re.findall(r"^ *```\n(.*?)^ *```", page, re.M | re.S):
 assert len(steps) > 8, "the tutorial's commands were not found"
 
 with tempfile.TemporaryDirectory(prefix="vielto-tutorial-") as name:
-    for folder in ("gap", "libraries", "studies", "cases", "materials", "liggghts_addons", "workflow"):
+    for folder in ("cases", "findings", "libraries", "liggghts_addons", "materials", "scripts", "studies", "tools"):
         (pathlib.Path(name) / folder).symlink_to(root / folder)
     environment = {**os.environ, "PATH": f"{sys.argv[1]}:{os.environ['PATH']}"}
     for command, expected in steps:

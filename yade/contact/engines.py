@@ -78,7 +78,9 @@ def liggghts(program, case, folder, samples, level):
     values["settings"] = '"' + " ".join(settings) + '"'
     (folder / "case.par").write_text("".join(f"variable {k} index {v}\n" for k, v in values.items()))
 
-    row = lambda *numbers: " ".join(repr(float(n)) for n in numbers)
+    def row(*numbers):
+        return " ".join(repr(float(n)) for n in numbers)
+
     box = "".join(f"{-half} {half} {a}lo {a}hi\n" for a in "xyz")
     atoms = "".join(
         f"{i + 1} {i + 1} {row(2 * s['radius'], case['density'], *s['x'])}\n" for i, s in enumerate(spheres)

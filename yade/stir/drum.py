@@ -34,14 +34,23 @@ def rotor(case):
     return [turned(blade, 2 * math.pi * i / r["blades"]) for i in range(r["blades"])]
 
 
+def numbers(v):
+    return " ".join(f"{q:.12g}" for q in v)
+
+
 def stl(name, triangles):
     lines = [f"solid {name}"]
     for t in triangles:
         a, b, c = map(numpy.array, t)
         normal = numpy.cross(b - a, c - a)
         normal /= numpy.linalg.norm(normal)
-        row = lambda v: " ".join(f"{q:.12g}" for q in v)
-        lines += [f"facet normal {row(normal)}", "outer loop", *(f"vertex {row(v)}" for v in t), "endloop", "endfacet"]
+        lines += [
+            f"facet normal {numbers(normal)}",
+            "outer loop",
+            *(f"vertex {numbers(v)}" for v in t),
+            "endloop",
+            "endfacet",
+        ]
     return "\n".join(lines + [f"endsolid {name}"]) + "\n"
 
 

@@ -90,7 +90,10 @@ def liggghts(program, case, folder, grains, turning):
         return end
     lines = [x for x in (folder / "torque.csv").read_text().splitlines() if not x.startswith("#")]
     names = lines[0].split(",")
-    pick = lambda name: numpy.array([float(x.split(",")[names.index(name)]) for x in lines[1:]])
+
+    def pick(name):
+        return numpy.array([float(x.split(",")[names.index(name)]) for x in lines[1:]])
+
     shape = numpy.loadtxt(folder / "shape.txt")
     shape = shape[shape[:, 0] > 0][:, 1:]
     return numpy.column_stack([pick("turn"), pick("rotor_Nm"), shape])
