@@ -8,9 +8,9 @@
 #include <string>
 #include <system_error>
 
-#include "plugin/registration.h"
 #include "input.h"
 #include "lammps.h"
+#include "plugin/registration.h"
 #include "signal_handling.h"
 
 namespace {
