@@ -2,6 +2,7 @@
 // The effect files: all of the protocol's, what each changes, and that the rigs know the switches.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <fstream>
 #include <set>
 #include <sstream>
@@ -18,16 +19,37 @@ const std::string kGap = VIELTO_SOURCE_DIR "/libraries/";
 
 std::vector<Effect> effects() { return read_effects(kGap + "effects", Settings::read(kGap + "diagnosis.toml")); }
 
-TEST(GapEffects, AllOfTheProtocol) {
-  std::set<std::string> names;
+// Rules that hold for every file of the folder, whichever they are.
+TEST(GapEffects, EveryFileStatesASourceAndActsOnSomething) {
+  std::set<std::string> kinds;
   for (const Effect& e : effects()) {
-    names.insert(e.name);
+    kinds.insert(e.kind);
     EXPECT_GE(e.source.size(), 10u) << e.name;
+    EXPECT_LE(e.prior_low, 0) << e.name;
+    EXPECT_GE(e.prior_high, 0) << e.name;
+    // a change of the rig has a simulation to be confirmed with, a measurement effect none
+    EXPECT_EQ(e.kind == "measurement", e.vars.empty()) << e.name;
+    std::ifstream file(e.path);
+    std::string first;
+    std::getline(file, first);
+    EXPECT_EQ(first.rfind("# ", 0), 0u) << e.name << " does not begin with what it is, for a reader";
   }
-  EXPECT_EQ(names, (std::set<std::string>{"cohesion", "shape", "wall_friction", "size_spread", "dissipation",
-                                          "air_drag", "paddle_clearance", "wall_rolling", "drive_loss", "idle_drift",
-                                          "speed_slip", "fill_error", "sensor_gain", "coarse_grain", "soft_grain",
-                                          "slice_ends", "faceting"}));
+  // what the physics leaves out stands beside its rivals: geometry, measurement, numerics
+  EXPECT_EQ(kinds, (std::set<std::string>{"dem", "geometry", "measurement", "numerical"}));
+}
+
+// The numbers of a -var must be ones at both ends of the prior range, and no change at 0.
+TEST(GapEffects, EveryChangeIsANumberOverThePriorRange) {
+  for (const Effect& e : effects())
+    for (const VarChange& v : e.vars) {
+      if (v.rule == VarRule::word || v.rule == VarRule::switched) continue;
+      constexpr double kBase = 7.5;
+      if (v.rule != VarRule::value && !v.whole) {
+        EXPECT_EQ(v.text(kBase, 0), "7.5") << e.name << ": " << v.name;
+      }
+      for (const double s : {e.prior_low, e.prior_high})
+        EXPECT_TRUE(std::isfinite(std::stod(v.text(kBase, s)))) << e.name << ": " << v.name << " at " << s;
+    }
 }
 
 // A switch stands in the mixer's parameters or a card, or the page lists it as missing.
