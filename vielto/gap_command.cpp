@@ -5,12 +5,14 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <functional>
 #include <map>
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -181,18 +183,33 @@ Threshold threshold_of(const GapOptions& o, const Question& q) {
   if (!seal_holds(o.sealed)) throw BadInput(o.sealed, 0, "is not what its seal says", "bring the sealed file back");
   std::ifstream in(o.sealed);
   const json j = json::parse(in, nullptr, false);
-  if (j.is_discarded() || !j.contains("threshold"))
+  if (!j.is_object() || !j.contains("threshold") || !j["threshold"].is_object())
     throw BadInput(o.sealed, 0, "is no isolability.json", "make it with vielto gap isolability");
   if (j["fingerprint"] != q.fingerprint(o))
     throw BadInput(o.sealed, 0, "was sealed for other rows, u, correlations, effects or another library",
                    "seal it again before the data");
   const json& t = j["threshold"];
+  for (const char* key : {"log_odds", "low95", "high95", "draws", "libraries", "seed"})
+    if (!t.contains(key) || !t[key].is_number())
+      throw BadInput(o.sealed, 0, fmt::format("holds a threshold whose {} is no number", key),
+                     "seal it again: no verdict can rest on it");
   return {t["log_odds"], t["low95"], t["high95"], t["draws"], t["libraries"], t["seed"]};
 }
 
 const std::vector<const char*> kAnswerFiles = {"diagnosis.json", "diagnosis.html"};
 
-void write_json(const fs::path& path, const json& j) { write_whole_file(path.string(), j.dump(2) + "\n"); }
+// JSON writes a number that is not finite as null, which a reader would take for "not known".
+void require_finite_numbers(const json& j, const fs::path& path, const std::string& place = "") {
+  if (j.is_number_float() && !std::isfinite(j.get<double>()))
+    throw std::runtime_error(fmt::format("{} is not written: its {} is not finite", path.string(), place));
+  if (j.is_structured())
+    for (const auto& [key, value] : j.items()) require_finite_numbers(value, path, place + "/" + key);
+}
+
+void write_json(const fs::path& path, const json& j) {
+  require_finite_numbers(j, path);
+  write_whole_file(path.string(), j.dump(2) + "\n");
+}
 
 fs::path make_out(const std::string& folder) {
   std::error_code error;

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "core/bad_input.h"
+#include "gap/emulator/measured_noise.h"
 
 namespace vielto::gap {
 namespace {
@@ -345,7 +346,8 @@ TableModel Emulator::model(const ReducedTable& table, const EmulatorOptions& opt
   TableModel model;
   model.rows = table.rows;
   model.observed.resize(n);
-  model.noise = MatrixXd(table.covariance);
+  model.source = table.path;
+  model.noise = measured_noise(table);
   for (auto member : {&TableModel::baseline, &TableModel::family_shift, &TableModel::relative, &TableModel::scale,
                       &TableModel::logarithmic, &TableModel::unknown_scale})
     model.*member = VectorXd::Zero(n);
@@ -356,14 +358,6 @@ TableModel Emulator::model(const ReducedTable& table, const EmulatorOptions& opt
   model.family_members = MatrixXd::Zero(n, members);
   model.family_weights = family_.weights;
   model.family_parameters = family_.parameters;
-  {
-    // Stated correlations may contradict each other.
-    const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(model.noise, Eigen::EigenvaluesOnly);
-    if (eigen.eigenvalues()[0] < -1e-9 * eigen.eigenvalues()[n - 1])
-      throw BadInput(table.covariance_path, 0,
-                     "is no covariance: its correlations contradict each other (not positive)",
-                     "correct the correlations");
-  }
 
   std::map<const Channel*, std::vector<Index>> by_channel;
   for (Index i = 0; i < n; ++i) {
@@ -429,6 +423,9 @@ TableModel Emulator::model(const ReducedTable& table, const EmulatorOptions& opt
           model.family(rows[a], rows[b]) += (channel->relative ? size[a] * size[b] : 1) * uncertain(a, b);
     }
   }
+  raise_to_resolution(model.rows, model.scale, model.noise, model.notes);
+  for (std::string& text : contradictions(model.rows, model.noise, model.seed.diagonal()))
+    model.notes.push_back(std::move(text));
   if (members > 0) {
     model.family_shift = model.family_members * family_.weights;
     const MatrixXd centred = model.family_members.colwise() - model.family_shift;

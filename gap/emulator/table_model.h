@@ -41,6 +41,7 @@ struct EffectResponse {
 // The likelihood is of logarithms where effects multiply (in_logarithms): what is uncertain about a simulation is a
 // factor, and a gap by a third below is as large as one by a half above.
 struct TableModel {
+  std::string source;  // the table's path, for messages
   std::vector<Observation> rows;
   Eigen::VectorXd observed, baseline, family_shift;
   Eigen::VectorXd relative;     // 1 where effects multiply, 0 where they add up

@@ -42,7 +42,7 @@ double fit_probability(const TableModel& model, const ModelEvidence& m) {
   const auto effects = responses(model, m.effects);
   const auto s = best_strengths(m);
   const VectorXd d = model.observed - mean_at(model, effects, s);
-  const double chi2 = d.dot(covariance_at(model, effects, s).llt().solve(d));
+  const double chi2 = chi_squared(d, covariance_at(model, effects, s), model);
   return chi2_exceedance(chi2, std::max<double>(1, static_cast<double>(model.size() - static_cast<Index>(s.size()))));
 }
 
@@ -258,6 +258,8 @@ Diagnosis diagnose(const TableModel& model, const Threshold& threshold, const Se
   d.threshold = threshold;
   d.models = all_evidence(fit, settings);
   d.log_odds = largest_log_odds(fit, settings, fit.observed)[0];
+  require_finite(d.log_odds, "the log odds of the best rival", fit);
+  require_finite(threshold.log_odds, "the threshold", fit);
   const Verdict v = verdict_of(fit, d.models, d.log_odds > threshold.log_odds, settings);
   d.verdict = v.verdict;
   d.named = v.named;

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "gap/verdict/evidence.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
+
+#include "core/bad_input.h"
 
 namespace vielto::gap {
 namespace {
@@ -22,6 +26,16 @@ double log_sum(const std::vector<double>& logs) {
   double sum = 0;
   for (const double x : logs) sum += std::exp(x - best);
   return best + std::log(sum);
+}
+
+// exp(x) over the sum of exp(x): they add up to 1 however large the logarithms are.
+std::vector<double> parts_of_sum(const std::vector<double>& logs) {
+  const double best = *std::max_element(logs.begin(), logs.end());
+  std::vector<double> parts;
+  double sum = 0;
+  for (const double x : logs) sum += parts.emplace_back(std::exp(x - best));
+  for (double& part : parts) part /= sum;
+  return parts;
 }
 
 struct Box {
@@ -94,6 +108,14 @@ Interval ModelEvidence::strength(std::size_t effect) const {
 
 double log_normal_density(const VectorXd& deviation, const MatrixXd& covariance) {
   return log_densities(deviation, covariance)[0];
+}
+
+double chi_squared(const VectorXd& d, const MatrixXd& c, const TableModel& model) {
+  const Eigen::LLT<MatrixXd> factor(c);
+  const double x = factor.info() == Eigen::Success ? factor.matrixL().solve(d).squaredNorm()
+                                                   : std::numeric_limits<double>::quiet_NaN();
+  require_finite(x, "a distance in standard deviations", model);
+  return x;
 }
 
 VectorXd mean_at(const TableModel& model, const Effects& effects, const std::vector<double>& strengths) {
@@ -199,12 +221,18 @@ ModelEvidence effect_evidence(const TableModel& model, const Effects& effects) {
     }
     double log_cell = log_prior;
     for (const Box& b : box) log_cell += std::log((b.high - b.low) / cells);
-    const double total = log_sum(logs);
-    m.log_evidence = total + log_cell;
+    m.log_evidence = log_sum(logs) + log_cell;
+    const std::vector<double> parts = parts_of_sum(logs);
     for (std::size_t i = 0; i < nodes.size(); ++i)
-      if (logs[i] > total - kDrop) m.posterior.push_back({nodes[i], std::exp(logs[i] - total)});
+      if (parts[i] > std::exp(-kDrop)) m.posterior.push_back({nodes[i], parts[i]});
     return m;
   }
+}
+
+void require_finite(double value, const std::string& what, const TableModel& model) {
+  if (std::isfinite(value)) return;
+  throw BadInput(model.source, 0, fmt::format("{} is not finite: no verdict can rest on it", what),
+                 "look for values, u or shared errors that no measurement has");
 }
 
 void set_probabilities(std::vector<ModelEvidence>& models, const TableModel& model, const Settings& settings) {
@@ -216,14 +244,15 @@ void set_probabilities(std::vector<ModelEvidence>& models, const TableModel& mod
   if (pairs > 0) prior_sum += settings.prior_pair;
   std::vector<double> logs;
   for (const ModelEvidence& m : models) {
+    require_finite(m.log_evidence, "the evidence of " + m.name(), model);
     const double prior = m.unknown               ? settings.prior_unknown
                          : m.effects.empty()     ? settings.prior_no_gap
                          : m.effects.size() == 1 ? settings.prior_single / singles
                                                  : settings.prior_pair / pairs;
     logs.push_back(m.log_evidence + std::log(prior / prior_sum));
   }
-  const double total = log_sum(logs);
-  for (std::size_t i = 0; i < models.size(); ++i) models[i].probability = std::exp(logs[i] - total);
+  const std::vector<double> parts = parts_of_sum(logs);
+  for (std::size_t i = 0; i < models.size(); ++i) models[i].probability = parts[i];
 }
 
 std::vector<ModelEvidence> all_evidence(const TableModel& model, const Settings& settings, int best_singles) {

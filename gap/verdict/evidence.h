@@ -39,6 +39,9 @@ struct ModelEvidence {
   Interval strength(std::size_t effect) const;
 };
 
+// d' C^-1 d. Errors: BadInput naming the table of `model` if C is not positive definite or the result not finite.
+double chi_squared(const Eigen::VectorXd& d, const Eigen::MatrixXd& c, const TableModel& model);
+
 double log_normal_density(const Eigen::VectorXd& deviation, const Eigen::MatrixXd& covariance);
 
 // Mean and covariance of y at strengths (of one or two effects of `model`).
@@ -53,7 +56,11 @@ ModelEvidence no_gap_evidence(const TableModel& model);
 ModelEvidence unknown_evidence(const TableModel& model, const Settings& settings);
 ModelEvidence effect_evidence(const TableModel& model, const std::vector<const EffectResponse*>& effects);
 
-// All models, probabilities set. `pairs_of`: pairs among the so many best singles only (0: all).
+// Errors: BadInput naming the table if a number that a verdict would rest on is not finite.
+void require_finite(double value, const std::string& what, const TableModel& model);
+
+// All models, probabilities set. Errors: BadInput for evidence that is not finite. `pairs_of`: pairs among the so many
+// best singles only (0: all).
 std::vector<ModelEvidence> all_evidence(const TableModel& model, const Settings& settings, int pairs_of = 0);
 void set_probabilities(std::vector<ModelEvidence>& models, const TableModel& model, const Settings& settings);
 

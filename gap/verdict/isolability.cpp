@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gap/verdict/evidence.h"
+
 namespace vielto::gap {
 namespace {
 
@@ -21,16 +23,14 @@ std::vector<double> probe_strengths(const EffectResponse& e, Index step) {
   return s;
 }
 
-double squared(const VectorXd& d, const MatrixXd& c) { return c.llt().matrixL().solve(d).squaredNorm(); }
-
 }  // namespace
 
 double distance(const TableModel& model, const EffectResponse& a, double s, const EffectResponse& b) {
   const VectorXd ra = a.response(s);
   const MatrixXd ca = model.null_covariance() + model.uncertain(a, s);
-  double least = squared(ra, ca);  // b at 0
+  double least = chi_squared(ra, ca, model);  // b at 0
   for (const double t : probe_strengths(b, 2))
-    least = std::min(least, squared(ra - b.response(t), ca + model.uncertain(b, t)));
+    least = std::min(least, chi_squared(ra - b.response(t), ca + model.uncertain(b, t), model));
   return std::sqrt(least);
 }
 
@@ -48,7 +48,7 @@ Isolability isolability(const TableModel& model, const Settings& settings) {
     for (const double s : probe_strengths(e, 6)) {  // the farthest one is at an end or broad
       if (s == 0) continue;
       result.detectability[a] =
-          std::max(result.detectability[a], std::sqrt(squared(e.response(s), null + e.emulator(s))));
+          std::max(result.detectability[a], std::sqrt(chi_squared(e.response(s), null + e.emulator(s), model)));
       for (Index b = 0; b < m; ++b)
         if (b != a)
           result.separation(a, b) = std::max(result.separation(a, b), distance(model, e, s, model.effects[b]));

@@ -23,9 +23,11 @@ VectorXd draw_without_gap(const TableModel& truth, std::mt19937_64& random) {
     y += truth.family_members.col(member(random));
   }
   covariance.diagonal().array() += 1e-14 * covariance.diagonal().mean();
+  const Eigen::LLT<MatrixXd> factor(covariance);
+  require_finite(factor.info() == Eigen::Success ? 1 : NAN, "the scatter of a table without a gap", truth);
   VectorXd z(y.size());
   for (double& x : z) x = normal(random);
-  return y + covariance.llt().matrixL() * z;
+  return y + factor.matrixL() * z;
 }
 
 Threshold bootstrap_threshold(const Emulator& emulator, const TableModel& truth, const Settings& settings,
@@ -38,6 +40,7 @@ Threshold bootstrap_threshold(const Emulator& emulator, const TableModel& truth,
     MatrixXd tables(truth.size(), each);
     for (Index b = 0; b < each; ++b) tables.col(b) = draw_without_gap(truth, random);
     const VectorXd found = largest_log_odds(model, settings, tables);
+    for (const double x : found) require_finite(x, "the log odds of a table without a gap", truth);
     odds.insert(odds.end(), found.begin(), found.end());
   }
   std::sort(odds.begin(), odds.end());

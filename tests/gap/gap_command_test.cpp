@@ -582,6 +582,36 @@ TEST_F(GapCommand, RefusesOptionsThatMeanNothing) {
   EXPECT_FALSE(fs::exists(folder_ / "answer"));
 }
 
+// A new effect is one file in the folder of effects: nothing else has to know of it.
+TEST_F(GapCommand, AnEffectIsOneFile) {
+  std::ofstream(folder_ / "effects/worn_belt.toml") << R"(# A belt that slips more at speed: what is read is too small.
+name = "worn_belt"
+kind = "measurement"
+unit = "1"
+prior_low = -0.4
+prior_high = 0.0
+source = "made up for this test"
+[[apply.transform]]
+apparatus = "mixer"
+observable = "power"
+operation = "scale"
+factor = 1.0
+power_of = {speed = 1.0}
+reference = {speed = 1.0}
+)";
+  toy::State state;
+  std::mt19937_64 random(9);
+  rows_ = toy::measured(state, random);
+  for (Observation& row : rows_)
+    if (row.observable == "power") row.value *= 1 - 0.25 * *row.speed;
+  write(rows_);
+  ASSERT_EQ(diagnose(), 0) << err_;
+  const json d = json::parse(content(folder_ / "answer/diagnosis.json"));
+  EXPECT_EQ(d["named"], json({"worn_belt"})) << out_;
+  EXPECT_NEAR(d["strength"]["worn_belt"]["value"].get<double>(), -0.25, 0.05);
+  EXPECT_NE(content(folder_ / "answer/diagnosis.html").find("worn_belt"), std::string::npos);
+}
+
 // What cannot be checked is said; a family that was cut short is refused.
 TEST_F(GapCommand, ALibrarySaysWhetherItIsWhole) {
   ASSERT_EQ(diagnose(), 0) << err_;
