@@ -3,7 +3,10 @@
 // themselves.
 //   - lines before the numbers may begin with '#'; the last of them names the columns, `#` before it or not
 //     (`# t\t\tTx`, `t,Tx`, `#format x_y_z_r`)
-//   - columns are divided by blanks or tabs, or by commas or semicolons
+//   - columns are divided as their names are: by semicolons if there is one among the names, else by commas if there is
+//     one, else by blanks or tabs
+//   - numbers have decimal points, or decimal commas where no comma divides the columns; one kind a file, no marks
+//     between thousands
 //   - empty lines and lines of '#' among the numbers are skipped
 // `nan` is read as such: plot.addData leaves it where a call gave no value; an empty field between commas is one too.
 // Who takes a column decides about it.

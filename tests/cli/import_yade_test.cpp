@@ -230,6 +230,41 @@ TEST_F(ImportYade, AngleOfASurface) {
   EXPECT_NEAR(rows()[0].value, 20, 3 * rows()[0].u);
 }
 
+// The same record as a German or Hungarian machine writes it: no comma is a column's end that divides no names.
+TEST_F(ImportYade, DecimalCommas) {
+  YadePlot plot;
+  plot.noise = 0;
+  plot.names = "# Tx\ti\tt\n";
+  const std::string points = plot.text();
+  for (const char* separator : {"\t", " ", ";", "; "}) {
+    std::string text;
+    for (const char c : points) text += c == '.' ? std::string(",") : c == '\t' ? separator : std::string(1, c);
+    write("plot.txt", text);
+    ASSERT_EQ(import(torque_), 0) << err_;
+    EXPECT_NEAR(rows()[0].value, 2 * kPi * 1.25 * 2, 1e-9) << separator;
+    fs::remove(folder_ / "table.csv");
+  }
+  // whole numbers in one column, decimal commas in the other: two columns, not three
+  std::string whole = "i\tTx\n";
+  for (int i = 0; i <= 400; ++i) whole += std::to_string(i) + "\t3,25\n";
+  write("plot.txt", whole);
+  ASSERT_EQ(import("--torque plot.txt --torque-column Tx --time-column i --speed 1.25 --time-factor 0.016"), 0) << err_;
+  EXPECT_NEAR(rows()[0].value, 2 * kPi * 1.25 * 3.25, 1e-9);
+}
+
+TEST_F(ImportYade, RefusesNumbersThatCouldBeReadTwoWays) {
+  write("plot.txt", "t\tTx\n0\t1,5\n0.1\t1,5\n");
+  refuses(torque_, "plot.txt, line 3: mixes decimal commas and decimal points (other kind in line 2)");
+  for (const char* number : {"1,234.5", "1,234,567", "1.234,5"}) {
+    write("plot.txt", std::string("t\tTx\n0\t") + number + "\n");
+    refuses(torque_, std::string("plot.txt, line 2, column Tx: '") + number + "' is not a finite number");
+  }
+  write("plot.txt", "t,Tx\n0,0,1,5\n");  // decimal commas among commas
+  refuses(torque_, "plot.txt, line 2: has 4 numbers for 2 columns");
+  write("plot.txt", "t Tx\n0,1\n");
+  refuses(torque_, "plot.txt, line 2: has 1 numbers for 2 columns");
+}
+
 TEST_F(ImportYade, RefusesBadInputInOneLine) {
   const std::string good = YadePlot().text();
   write("plot.txt", good);
