@@ -74,6 +74,26 @@ TEST(ConeFit, BearsAHeapOffItsAxis) {
   EXPECT_NEAR(cone_fit(heap(cone, 1)).angle, cone.angle, 1.0);
 }
 
+// However far off its axis a heap stands: over 20 heaps the mean angle is the cone's within three standard
+// uncertainties.
+TEST(ConeFit, MeasuresAHeapAboutItsOwnSummit) {
+  for (const double off_axis : {6.0, 15.0}) {
+    Cone cone;
+    cone.angle = 30;
+    cone.off_axis = off_axis;
+    double mean = 0, square = 0;
+    for (unsigned seed = 1; seed <= 20; seed++) {
+      const ConeFit fit = cone_fit(heap(cone, seed));
+      EXPECT_TRUE(fit.about_summit);
+      EXPECT_NEAR(fit.off_axis / 0.003, off_axis, 1);
+      mean += fit.angle / 20;
+      square += fit.angle * fit.angle / 20;
+    }
+    EXPECT_NEAR(mean, cone.angle, 3 * std::sqrt((square - mean * mean) / 19) + 1e-3) << off_axis;
+  }
+  EXPECT_FALSE(cone_fit(heap(Cone(), 1)).about_summit);
+}
+
 TEST(ConeFit, ShowsAnglesThatDifferOverTheAzimuth) {
   Cone cone;
   cone.ridge = 6;

@@ -4,8 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <utility>
 
 #include "core/bad_input.h"
 #include "core/mixing_numbers.h"
@@ -13,6 +16,7 @@
 namespace vielto {
 namespace {
 
+constexpr std::ptrdiff_t kSummitRank = 10;
 constexpr double kEmpty = -std::numeric_limits<double>::infinity();
 
 struct Line {
@@ -28,18 +32,41 @@ Line fit(const std::vector<SurfacePoint>& points) {
   return {z - rz / rr * r, -rz / rr};
 }
 
+// Where the heap stands: the middle of its uppermost part, each place weighted by how far it reaches into that.
+std::array<double, 2> summit(const Heap& heap) {
+  const double d = heap.header.grain_diameter;
+  std::map<std::pair<long, long>, double> top;  // of the cells d x d
+  for (const Grain& g : heap.grains) {
+    double& cell = top.emplace(std::pair(std::lround(g.x[0] / d), std::lround(g.x[1] / d)), kEmpty).first->second;
+    cell = std::max(cell, g.x[2] + g.radius);
+  }
+  std::vector<double> heights;
+  for (const auto& [place, height] : top) heights.push_back(height);
+  // not the very highest, which may be a single grain on top of others
+  const auto high = heights.end() - std::min<std::ptrdiff_t>(kSummitRank, static_cast<std::ptrdiff_t>(heights.size()));
+  std::nth_element(heights.begin(), high, heights.end());
+  const double floor = kFlankTop * *high;
+  double x = 0, y = 0, weight = 0;
+  for (const auto& [place, height] : top) {
+    const double w = std::max(0.0, height - floor);
+    x += w * static_cast<double>(place.first) * d, y += w * static_cast<double>(place.second) * d, weight += w;
+  }
+  return weight > 0 ? std::array{x / weight, y / weight} : std::array{0.0, 0.0};
+}
+
 // Top of the highest grain in each cell, [strip][cell]; kEmpty where there is none.
-std::vector<std::vector<double>> surface_cells(const Heap& heap) {
+std::vector<std::vector<double>> surface_cells(const Heap& heap, const std::array<double, 2>& axis) {
   const double d = heap.header.grain_diameter;
   double reach = 0;
-  for (const Grain& g : heap.grains) reach = std::max(reach, std::hypot(g.x[0], g.x[1]));
+  for (const Grain& g : heap.grains) reach = std::max(reach, std::hypot(g.x[0] - axis[0], g.x[1] - axis[1]));
   const std::size_t cells = static_cast<std::size_t>(reach / d) + 1;
   std::vector<std::vector<double>> top(kConeStrips, std::vector<double>(cells, kEmpty));
   for (std::size_t s = 0; s < kConeStrips; ++s) {
     const double azimuth = 2 * kPi * static_cast<double>(s) / kConeStrips;
     for (const Grain& g : heap.grains) {
-      const double along = g.x[0] * std::cos(azimuth) + g.x[1] * std::sin(azimuth);
-      const double across = g.x[1] * std::cos(azimuth) - g.x[0] * std::sin(azimuth);
+      const double x = g.x[0] - axis[0], y = g.x[1] - axis[1];
+      const double along = x * std::cos(azimuth) + y * std::sin(azimuth);
+      const double across = y * std::cos(azimuth) - x * std::sin(azimuth);
       if (along < 0 || std::fabs(across) > d) continue;
       double& cell = top[s][std::min(cells - 1, static_cast<std::size_t>(along / d))];
       cell = std::max(cell, g.x[2] + g.radius);
@@ -52,9 +79,12 @@ std::vector<std::vector<double>> surface_cells(const Heap& heap) {
 
 ConeFit cone_fit(const Heap& heap) {
   const double d = heap.header.grain_diameter;
-  const auto top = surface_cells(heap);
-  const auto radius = [&](std::size_t cell) { return (static_cast<double>(cell) + 0.5) * d; };
   ConeFit result;
+  const std::array<double, 2> middle_of_heap = summit(heap);
+  result.off_axis = std::hypot(middle_of_heap[0], middle_of_heap[1]);
+  result.about_summit = result.off_axis > kOnAxis * d;
+  const auto top = surface_cells(heap, result.about_summit ? middle_of_heap : std::array{0.0, 0.0});
+  const auto radius = [&](std::size_t cell) { return (static_cast<double>(cell) + 0.5) * d; };
   // A cell without a grain is bare base.
   for (std::size_t c = 0; c < top[0].size(); ++c) {
     double sum = 0;

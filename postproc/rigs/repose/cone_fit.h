@@ -11,7 +11,9 @@
 //    the height of a single cell, which would cut off high and low ones and tilt the line.
 // 3. Line. z = a - b r by least squares through the flank's cells of each strip; the angle of a strip is atan b.
 //    The angle is the mean over strips, u their standard deviation over the square root of their number: azimuths are
-//    the repetitions. A heap off its axis by a little is steeper on one side and flatter on the other, which cancels.
+//    the repetitions. A heap off its axis by a little is steeper on one side and flatter on the other, which cancels;
+//    one whose summit is further off than kOnAxis diameters is measured about its summit (about_summit), the middle of
+//    the part above kFlankTop of its height.
 //
 // Limits: a constant angle on the flank is assumed; `curvature` tells how much steeper the upper half is than the
 // lower. Tested on synthetic cones of known angle (tests/rigs/cone_fit_test.cpp). Errors: BadInput if the flank is
@@ -27,6 +29,7 @@ namespace vielto {
 constexpr int kConeStrips = 24;
 constexpr double kFlankTop = 0.8, kFlankFoot = 0.2;  // of the greatest height
 constexpr int kLeastFlank = 4;                       // cells
+constexpr double kOnAxis = 2;                        // diameters
 
 struct SurfacePoint {
   double r = 0, z = 0;  // m
@@ -39,6 +42,8 @@ struct ConeFit {
   double height = 0;                    // m, of the mean profile
   double flank_from = 0, flank_to = 0;  // m, radii
   double intercept = 0, slope = 0;      // mean line z = intercept - slope r, m and 1
+  double off_axis = 0;                  // m, of the heap's summit from the cylinder's axis
+  bool about_summit = false;            // the strips go from the summit, not from the axis
   std::vector<double> strip_angles;     // deg
   std::vector<SurfacePoint> profile;    // mean over the strips
   std::vector<SurfacePoint> surface;    // all cells

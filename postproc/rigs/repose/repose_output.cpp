@@ -44,6 +44,8 @@ nlohmann::ordered_json repose_json(const Heap& heap, const ConeFit& f) {
       {"flank_to_m", f.flank_to},
       {"line_intercept_m", f.intercept},
       {"line_slope", f.slope},
+      {"summit_off_axis_m", f.off_axis},
+      {"about_summit", f.about_summit},
       {"dt_over_tc", h.dt_over_tc},
       {"strip_angles_deg", f.strip_angles},
   };
@@ -67,6 +69,7 @@ std::string repose_table(const Heap& heap, const ConeFit& f) {
   line("height of the mean profile", 1e3 * f.height, "", "mm");
   line("flank from radius", 1e3 * f.flank_from, "", "mm");
   line("flank to radius", 1e3 * f.flank_to, "", "mm");
+  line(f.about_summit ? "summit off the axis (measured about it)" : "summit off the axis", 1e3 * f.off_axis, "", "mm");
   line("at rest after", h.rest_time, "", "s");
   line("time step over t_c", h.dt_over_tc, "", fmt::format("1, limit {}", kMostDtOverTc));
   return text;
