@@ -254,6 +254,28 @@ TEST_F(PostCommand, ViolatedLimitsAreSaidLoudlyAndMarked) {
   r = quiet_;
   r.gravity_gap = 0.075;
   warning(r, "rotor, drum and gravity torque leave +10 % of the rotor torque");
+  r = quiet_;
+  r.keys = {{"mass_kg", "0.533"}};
+  warning(r, "the grains weigh 0.533 kg where the fill asks for 1.067 kg");
+  r.keys = {{"mass_kg", "2.986"}};
+  warning(r, "the grains weigh 2.986 kg where");
+}
+
+// One row of 720 that alone moves the mean by a tenth: 0.1 x 0.75 N m x 720 = 54 N m. Half as much again as the limit
+// says so, half of it does not.
+TEST_F(PostCommand, ALoneIntervalThatMovesTheMeanIsNamed) {
+  quiet_.energy = quiet_.gravity = false;
+  const double rotor = quiet_.rotor_mean();
+  for (const double share : {0.025, 0.1}) {
+    SyntheticRecord r = quiet_;
+    r.change = [&](int row, std::map<std::string, double>& values) {
+      if (row == 396) values["stems_Nm"] += share * rotor * 720;  // the middle of turn 5
+    };
+    r.write(folder_ / "run");
+    ASSERT_EQ(post("run --turns 10"), 0) << err_;
+    const bool named = err_.find("the torque near turn 5.50") != std::string::npos;
+    EXPECT_EQ(named, share > 0.05) << share << err_;
+  }
 }
 
 TEST_F(PostCommand, BalancesAreReportedWhereRecorded) {

@@ -34,6 +34,23 @@ void check_idle(const TorqueRecord& record, const AveragedTurns& turns) {
                    "run the case with its idling model, or leave --idle out");
 }
 
+// The interval of a turn that moves the mean of the rotor's torque most, as a warning where it moves it by too much.
+std::string lone_interval(const TorqueRecord& r, const Signal& rotor, const AveragedTurns& turns) {
+  const auto begin = rotor.begin() + static_cast<std::ptrdiff_t>(turns.first) * kPhases;
+  const auto end = begin + static_cast<std::ptrdiff_t>(turns.count) * kPhases;
+  const double n = static_cast<double>(end - begin), mean = std::accumulate(begin, end, 0.0) / n;
+  const auto lone =
+      std::max_element(begin, end, [mean](double a, double b) { return std::fabs(a - mean) < std::fabs(b - mean); });
+  const double without = (mean * n - *lone) / (n - 1);
+  if (!(std::fabs(mean - without) > kMostLoneShare * std::fabs(without))) return "";
+  const double turn = r.first_turn + static_cast<double>(lone - rotor.begin()) / kPhases * r.turns_per_block;
+  return fmt::format(
+      "the torque near turn {:.2f} (step {:.0f}), {:.4g} N m, alone moves the mean torque from {:.4g} to {:.4g} N m: "
+      "look "
+      "at these rows",
+      turn, r.start_step + turn * r.header.steps_per_turn, *lone, without, mean);
+}
+
 RunQuality run_quality(const TorqueRecord& r, const AveragedTurns& turns, const MeanUncertainty& torque,
                        const ShaftCurves& curves) {
   RunQuality q;
@@ -54,9 +71,14 @@ RunQuality run_quality(const TorqueRecord& r, const AveragedTurns& turns, const 
   warn(q.overlap_max >= kMostOverlapMax, fmt::format("greatest overlap is {:.3g} % of the diameter, the limit is {} %",
                                                      100 * q.overlap_max, 100 * kMostOverlapMax));
   warn(q.lost_grains != 0, fmt::format("{} grains were lost", q.lost_grains));
+  warn(!(std::fabs(q.mass - q.mass_target) <= kMostMassDifference * q.mass_target),
+       fmt::format("the grains weigh {:.4g} kg where the fill asks for {:.4g} kg, the limit is {} %", q.mass,
+                   q.mass_target, 100 * kMostMassDifference));
 
+  const Signal rotor = r.rotor();
+  const std::string lone = lone_interval(r, rotor, turns);
+  warn(!lone.empty(), lone);
   if (!r.gravity.empty()) {
-    const Signal rotor = r.rotor();
     q.torque_balance = mean_over(sum(sum(rotor, 1, r.part[3]), 1, r.gravity), turns);
     q.torque_balance_relative = q.torque_balance->mean / mean_over(rotor, turns).mean;
     warn(std::fabs(q.torque_balance->mean) > 3 * q.torque_balance->u,

@@ -11,7 +11,8 @@
 // P is proportional to the assumed bulk density: kScaleUncertainty is common to every run of a material and not in u.
 //
 // Quality limits of every reported power: dt/t_c <= 1/20, mean overlap < 0.5 % and maximum < 5 % of the diameter over
-// the averaged turns, no lost grain; where recorded, work = dissipation + change of energy within 1 %, and the torques
+// the averaged turns, no lost grain, the mass asked for within 2 %, no single interval that moves the mean by over 5 %;
+// where recorded, work = dissipation + change of energy within 1 %, and the torques
 // of rotor, drum and gravity balance within three standard uncertainties. A violated one marks the power (warnings), it
 // does not hide it.
 //
@@ -34,6 +35,8 @@ namespace vielto {
 constexpr double kScaleUncertainty = 0.05;     // relative
 constexpr double kMostEnergyGap = 0.01;        // of the work
 constexpr double kMostSpeedDifference = 1e-3;  // loaded to idling record
+constexpr double kMostMassDifference = 0.02;   // of the mass asked for; a run of few large grains is half a grain off
+constexpr double kMostLoneShare = 0.05;        // of the mean, by one of kPhases intervals of one turn
 constexpr double kFewSamples = 10;             // effective samples below which u is uncertain itself
 
 // The turns averaged: `first` of the record's whole turns left out, `count` kept.

@@ -139,7 +139,8 @@ std::string power_table(const MixingPower& p) {
   quality("mean overlap, % of diameter", 100 * q.overlap_mean, fmt::format("{}", 100 * kMostOverlapMean));
   quality("greatest overlap, % of diameter", 100 * q.overlap_max, fmt::format("{}", 100 * kMostOverlapMax));
   quality("lost grains", q.lost_grains, "0");
-  quality("grain mass over target, %", 100 * (q.mass / q.mass_target - 1), "");
+  quality("grain mass over target, %", 100 * (q.mass / q.mass_target - 1),
+          fmt::format("{}", 100 * kMostMassDifference));
   quality("rows a turn", q.intervals_per_turn, "");
   quality("effective samples", p.torque.effective_samples, "");
   quality("drift, % a turn", 100 * p.averaged.slope, "");
