@@ -313,11 +313,8 @@ void Emulator::fill_effect(const Channel& channel, const Effect& effect, const s
           c.topLeftCorner(m, m) + c.bottomRightCorner(m, m) - c.topRightCorner(m, m) - c.bottomLeftCorner(m, m);
     } else if (transform) {
       for (Index a = 0; a < m; ++a) {
-        const double g = transform->amount(model.rows[rows[a]], s), f = model.baseline[rows[a]];
-        const double changed = transform->operation == Operation::scale ? f * (1 + g)
-                               : transform->operation == Operation::add ? f + g
-                                                                        : f * std::exp(g);
-        response.mean(rows[a], k) = changed - f;
+        const double f = model.baseline[rows[a]];
+        response.mean(rows[a], k) = transform->reading(model.rows[rows[a]], f, s).value - f;
       }
       continue;
     } else if (smooth != channel.responses.end()) {

@@ -54,20 +54,97 @@ VarChange read_var(const TomlTable& t) {
   return var;
 }
 
+// The observable itself, beside the conditions.
+const std::string kValue = "value";
+
 std::map<std::string, double> numbers_by_condition(const TomlTable& t, const char* key) {
   std::map<std::string, double> result;
   if (!t.has(key)) return result;
   const TomlTable inner = t.table(key);
   for (const auto& entry : inner.raw()) {
     const std::string name(entry.first.str());
-    if (!condition_member(name)) inner.refuse(name, "is no condition", "write speed, fill, moisture ...");
+    if (name != kValue && !condition_member(name))
+      inner.refuse(name, "is no condition", "write value, speed, fill, moisture ...");
     result[name] = inner.number(name, -1e6, 1e6);
   }
   return result;
 }
 
+std::vector<double> numbers(const TomlTable& t, const char* key) {
+  const toml::array* list = t.raw()[key].as_array();
+  std::vector<double> result;
+  if (list)
+    for (const toml::node& node : *list)
+      if (const auto number = node.value<double>()) result.push_back(*number);
+  if (!list || result.size() != list->size() || result.size() < 2)
+    t.refuse(key, "is no list of two numbers or more", fmt::format("write {} = [0.5, 1.0]", key));
+  return result;
+}
+
+Curve read_curve(const TomlTable& t) {
+  Curve curve;
+  if (t.has("curve") && t.has("efficiency")) t.refuse("curve", "stands beside efficiency", "keep one of the two");
+  if (!t.has("curve") && !t.has("efficiency")) return curve;
+  const bool loss = t.has("efficiency");
+  const TomlTable inner = t.table(loss ? "efficiency" : "curve");
+  inner.only({"condition", "at", "value"});
+  curve.condition = inner.text("condition");
+  if (!condition_member(curve.condition)) inner.refuse("condition", "is no condition", "write speed, fill ...");
+  curve.at = numbers(inner, "at");
+  curve.value = numbers(inner, "value");
+  if (curve.value.size() != curve.at.size())
+    inner.refuse("value", fmt::format("has {} numbers for {} of at", curve.value.size(), curve.at.size()),
+                 "give one for each");
+  for (std::size_t i = 1; i < curve.at.size(); ++i)
+    if (!(curve.at[i] > curve.at[i - 1]))
+      inner.refuse("at", fmt::format("falls from {} to {}", curve.at[i - 1], curve.at[i]), "give rising numbers");
+  if (!loss) return curve;
+  for (double& value : curve.value) {
+    if (!(value > 0 && value <= 1))
+      inner.refuse("value", fmt::format("has the efficiency {}", value), "give efficiencies above 0 and up to 1");
+    value = 1 - value;
+  }
+  return curve;
+}
+
+std::vector<Term> read_terms(const TomlTable& t) {
+  if (!t.has("terms")) return {Term{1, numbers_by_condition(t, "power_of")}};
+  if (t.has("power_of")) t.refuse("power_of", "stands beside terms", "write it into one of them");
+  std::vector<Term> terms;
+  const toml::array* list = t.raw()["terms"].as_array();
+  if (list)
+    for (const toml::node& node : *list) {
+      if (!node.is_table()) break;
+      const TomlTable inner(t.path(), *node.as_table());
+      inner.only({"coefficient", "power_of"});
+      terms.push_back({inner.number("coefficient", -1e12, 1e12), numbers_by_condition(inner, "power_of")});
+    }
+  if (!list || terms.empty() || terms.size() != list->size())
+    t.refuse("terms", "is no list of terms", "write terms = [{coefficient = 1, power_of = {speed = 1}}]");
+  return terms;
+}
+
+double at(const Curve& curve, const Observation& row) {
+  if (curve.at.empty()) return 1;
+  const auto& place = row.*condition_member(curve.condition);
+  if (!place)
+    throw BadInput("test " + row.test, 0,
+                   fmt::format("{} of {} has no {}", row.observable, row.apparatus, curve.condition),
+                   "state it: an effect on the measurement depends on it");
+  if (*place < curve.at.front() || *place > curve.at.back())
+    throw BadInput("test " + row.test, 0,
+                   fmt::format("{} {} is outside the curve of an effect, {} to {}", curve.condition, *place,
+                               curve.at.front(), curve.at.back()),
+                   "extend the curve in the effect's file, from its source");
+  std::size_t i = 1;
+  while (i + 1 < curve.at.size() && curve.at[i] < *place) ++i;
+  const double part = (*place - curve.at[i - 1]) / (curve.at[i] - curve.at[i - 1]);
+  return (1 - part) * curve.value[i - 1] + part * curve.value[i];
+}
+
 Transform read_transform(const TomlTable& t) {
-  t.only({"apparatus", "observable", "operation", "factor", "condition", "power_of", "reference"});
+  t.only({"apparatus", "observable", "operation", "factor", "condition", "power_of", "terms", "reference", "curve",
+          "efficiency"});
   Transform transform;
   transform.apparatus = t.text("apparatus");
   transform.observable = t.text("observable");
@@ -78,17 +155,20 @@ Transform read_transform(const TomlTable& t) {
                                           {{"scale", Operation::scale},
                                            {"add", Operation::add},
                                            {"exponential", Operation::exponential},
-                                           {"shift", Operation::shift}});
+                                           {"shift", Operation::shift},
+                                           {"efficiency", Operation::efficiency}});
   transform.factor = t.number("factor", -1e12, 1e12);
   if (transform.operation == Operation::shift) {
     transform.condition = t.text("condition");
     if (!condition_member(transform.condition)) t.refuse("condition", "is no condition", "write speed, fill ...");
   }
-  transform.power_of = numbers_by_condition(t, "power_of");
+  transform.terms = read_terms(t);
   transform.reference = numbers_by_condition(t, "reference");
-  for (const auto& [name, power] : transform.power_of)
-    if (transform.reference.count(name) == 0 || !(transform.reference[name] > 0))
-      t.refuse("reference", fmt::format("lacks a value above 0 for {}", name), "state where the factor is 1");
+  transform.curve = read_curve(t);
+  for (const Term& term : transform.terms)
+    for (const auto& [name, power] : term.power_of)
+      if (transform.reference.count(name) == 0 || !(transform.reference[name] > 0))
+        t.refuse("reference", fmt::format("lacks a value above 0 for {}", name), "state where the factor is 1");
   return transform;
 }
 
@@ -143,16 +223,43 @@ bool Transform::acts_on(const std::string& on_apparatus, const std::string& on_o
   return apparatus == on_apparatus && (observable == "*" || observable == on_observable);
 }
 
-double Transform::amount(const Observation& row, double strength) const {
-  double g = factor * strength;
-  for (const auto& [name, power] : power_of) {
-    const auto& value = row.*condition_member(name);
-    if (!value)
-      throw BadInput("test " + row.test, 0, fmt::format("{} of {} has no {}", row.observable, row.apparatus, name),
-                     "state it: an effect on the measurement depends on it");
-    g *= std::pow(*value / reference.at(name), power);
+Reading Transform::reading(const Observation& row, double y, double strength) const {
+  double g = 0, y_slope = 0;  // of g over y, times y
+  for (const Term& term : terms) {
+    double product = term.coefficient, power_of_y = 0;
+    for (const auto& [name, power] : term.power_of) {
+      std::optional<double> value = y;
+      if (name == kValue)
+        power_of_y = power;
+      else
+        value = row.*condition_member(name);
+      if (!value)
+        throw BadInput("test " + row.test, 0, fmt::format("{} of {} has no {}", row.observable, row.apparatus, name),
+                       "state it: an effect on the measurement depends on it");
+      product *= std::pow(*value / reference.at(name), power);
+    }
+    g += product;
+    y_slope += power_of_y * product;
   }
-  return g;
+  const double common = factor * strength * at(curve, row);
+  g *= common;
+  y_slope *= common;
+  switch (operation) {
+    case Operation::scale:
+      return {y * (1 + g), 1 + g + y_slope};
+    case Operation::add:
+      return {y + g, y == 0 ? 1 : 1 + y_slope / y};
+    case Operation::exponential:
+      return {y * std::exp(g), std::exp(g) * (1 + y_slope)};
+    case Operation::efficiency:
+      if (!(g < 1))
+        throw BadInput("test " + row.test, 0, fmt::format("{}: an effect loses {:.3g} of it", row.observable, g),
+                       "keep the loss under 1: lower the effect's prior_high");
+      return {y / (1 - g), (1 - g + y_slope) / ((1 - g) * (1 - g))};
+    case Operation::shift:
+      break;
+  }
+  return {y, 1};
 }
 
 bool Effect::acts_on_rig(const std::string& rig) const {

@@ -8,8 +8,15 @@
 //                      power10 b 10^(factor s)     divide  b / (1 + factor s)   (with whole = true, rounded)
 //                      word    a word              switch  a word, the whole change; s is the share of it
 //   apply.transform  the measurement chain, on an observable y at condition c (speed or fill ...), with
-//                    g = factor s prod_k (c_k/reference_k)^power_of_k:
+//                    g = factor s h(c) sum_t coefficient_t prod_k (c_k/reference_k)^power_of_tk:
 //                      scale  y (1 + g)    add  y + g    exponential  y exp(g)    shift  y at c (1 + factor s)
+//                      efficiency  y / (1 - g): what a drive takes in that loses the share g of it
+//                    One term is written power_of = {...}; several are terms = [{coefficient, power_of}, ...]. Among
+//                    the c_k may be `value`, y itself: a motor's copper loss goes with the torque squared,
+//                    power_of = {value = 1, speed = -2} on a power. h is 1, or between the points of
+//                      curve = {condition, at, value}        value, straight lines
+//                      efficiency = {condition, at, value}   1 - value, the loss of a drive of this efficiency
+//                    and a condition outside its points is refused.
 // At s = 0 no `-var` is written and no transform acts: the baseline bit for bit.
 //
 // Errors: BadInput with file, line and key.
@@ -40,18 +47,37 @@ struct VarChange {
   bool needs_base() const;
 };
 
-enum class Operation { scale, add, exponential, shift };
+enum class Operation { scale, add, exponential, shift, efficiency };
+
+struct Term {
+  double coefficient = 1;
+  std::map<std::string, double> power_of;
+};
+
+// Straight lines between points, over a condition; empty: 1 everywhere.
+struct Curve {
+  std::string condition;
+  std::vector<double> at, value;
+};
+
+// What an instrument reads for y, and by how much the reading moves with y.
+struct Reading {
+  double value = 0, slope = 1;
+};
 
 struct Transform {
   std::string apparatus, observable;  // observable "*": all of the apparatus
   Operation operation = Operation::scale;
   double factor = 0;
   std::string condition;  // of shift
-  std::map<std::string, double> power_of, reference;
+  std::vector<Term> terms{Term{}};
+  std::map<std::string, double> reference;
+  Curve curve;
 
   bool acts_on(const std::string& on_apparatus, const std::string& on_observable) const;
-  // g at the conditions of `row`. Errors: BadInput if the row lacks a condition that is asked for.
-  double amount(const Observation& row, double strength) const;
+  // Of y at the conditions of `row`; not for shift. Errors: BadInput if the row lacks a condition that is asked for or
+  // lies outside the curve, or if nothing would be left of y (efficiency).
+  Reading reading(const Observation& row, double y, double strength) const;
 };
 
 struct Effect {

@@ -388,12 +388,9 @@ Shrink measured_shrink(const Plan& plan, const Inputs& inputs, const TableModel&
       for (std::size_t e = 0; e < v.effects.size(); ++e) {
         const Transform* t = effect_named(inputs, v.effects[e]).transform_of(row.apparatus, row.observable);
         if (!t || t->operation == Operation::shift) continue;
-        const double g = t->amount(row, v.strengths[e]);
-        const double factor = t->operation == Operation::scale ? 1 + g
-                              : t->operation == Operation::add ? 1
-                                                               : std::exp(g);
-        y = t->operation == Operation::add ? y + g : y * factor;
-        variance *= factor * factor;
+        const Reading reading = t->reading(row, y, v.strengths[e]);
+        y = reading.value;
+        variance *= reading.slope * reading.slope;
       }
       s.value[i] = y;
       s.u[i] = std::sqrt(variance);

@@ -88,15 +88,4 @@ TEST(GapEffects, RulesByHand) {
   EXPECT_EQ(v.text(48, 0.2), "34");  // 48/1.4 = 34.3
 }
 
-TEST(GapEffects, TransformsByHand) {
-  Observation row;
-  row.speed = 4;
-  Transform t;
-  t.factor = 3;
-  t.power_of = {{"speed", 0.5}};
-  t.reference = {{"speed", 1.0}};
-  EXPECT_DOUBLE_EQ(t.amount(row, 0.1), 0.6);
-  EXPECT_EQ(t.amount(row, 0), 0);
-}
-
 }  // namespace
