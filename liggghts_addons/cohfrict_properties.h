@@ -19,6 +19,34 @@
 
 namespace cohfrict {
 
+enum {
+  YOUNG,
+  RATIO,
+  FRICTION,
+  ALPHA_KR,
+  ALPHA_KTW,
+  ETA_ROLL,
+  ETA_TWIST,
+  NORMAL_COHESION,
+  SHEAR_COHESION,
+  N_PROPERTIES
+};
+
+inline const vielto::PropertyRule* property_rules() {
+  static const double inf = std::numeric_limits<double>::infinity();
+  static const vielto::PropertyRule* const shared = vielto::property_rules();
+  static const vielto::PropertyRule rules[N_PROPERTIES] = {shared[vielto::YOUNG],
+                                                           shared[vielto::RATIO],
+                                                           shared[vielto::FRICTION],
+                                                           {"alphaKr", 0, inf, true, false, "1"},
+                                                           {"alphaKtw", 0, inf, true, false, "1"},
+                                                           {"etaRoll", -inf, inf, false, false, "1"},
+                                                           {"etaTwist", -inf, inf, false, false, "1"},
+                                                           {"normalCohesion", 0, inf, true, false, "Pa"},
+                                                           {"shearCohesion", 0, inf, true, false, "Pa"}};
+  return rules;
+}
+
 // Mixed constants of all pairs of types; the table the adapter looks up.
 class PairTable {
  public:
@@ -26,18 +54,8 @@ class PairTable {
 
   void read(LAMMPS_NS::LAMMPS* lmp) {
     const double inf = std::numeric_limits<double>::infinity(), degree = std::acos(-1.0) / 180;
-    const vielto::PropertyRule* const shared = vielto::property_rules();
-    const vielto::PropertyRule rules[9] = {shared[vielto::YOUNG],
-                                           shared[vielto::RATIO],
-                                           shared[vielto::FRICTION],
-                                           {"alphaKr", 0, inf, true, false, "1"},
-                                           {"alphaKtw", 0, inf, true, false, "1"},
-                                           {"etaRoll", -inf, inf, false, false, "1"},
-                                           {"etaTwist", -inf, inf, false, false, "1"},
-                                           {"normalCohesion", 0, inf, true, false, "Pa"},
-                                           {"shearCohesion", 0, inf, true, false, "Pa"}};
-    std::vector<double> v[9];
-    for (int k = 0; k < 9; k++) v[k] = vielto::read_property(lmp, rules[k]);
+    std::vector<double> v[N_PROPERTIES];
+    for (int k = 0; k < N_PROPERTIES; k++) v[k] = vielto::read_property(lmp, property_rules()[k]);
     n_ = lmp->atom->ntypes + 1;
     std::vector<Material> materials(n_);
     double youngMin = inf, cohesionMax = 0;

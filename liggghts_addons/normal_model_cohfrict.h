@@ -64,7 +64,7 @@ class NormalModel<COHFRICT> : public NormalModelBase {
   void postSettings(IContactHistorySetup*, ContactModelBase* cmb) {
     if (!(wallRadiusFactor_ > 0)) vielto::stop_all(lmp, "cohfrict: wallRadiusFactor must be > 0 (default 2)");
     if (!(overlaps_.limit >= 0)) vielto::stop_all(lmp, "cohfrict: maxOverlap must be >= 0 (0: no limit)");
-    if (!cmb->is_wall()) vielto::settings() = {1.0, wallRadiusFactor_, vielto::COHFRICT_LAW, 0.0};
+    if (!cmb->is_wall()) vielto::settings() = {1.0, wallRadiusFactor_, COHFRICT, overlaps_.limit};
   }
 
   void connectToProperties(PropertyRegistry&) {

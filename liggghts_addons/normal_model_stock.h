@@ -53,7 +53,7 @@ class WatchedModel : public NormalModel<Stock> {
                        "vielto: hertz needs a maxOverlap > 0: its stiffness, and so its time step, has no other bound");
     if (cmb->is_wall()) return;
     vielto::Settings& shared = vielto::settings();
-    shared.law = hertz ? vielto::HERTZ_LAW : vielto::HOOKE_LAW;
+    shared.law = hertz ? HERTZ_WATCHED : HOOKE_WATCHED;
     shared.maxOverlap = overlaps_.limit;
   }
 

@@ -49,13 +49,13 @@ class NormalModel<VIELTO> : public NormalModelBase {
     if (!(wallRadiusFactor_ > 0)) vielto::stop_all(lmp, "vielto: wallRadiusFactor must be > 0 (default 2)");
     if (!(overlaps_.limit >= 0)) vielto::stop_all(lmp, "vielto: maxOverlap must be >= 0 (0: no limit)");
     vielto::Settings& shared = vielto::settings();
-    if (cmb->is_wall() && shared.law == vielto::VIELTO_LAW &&
+    if (cmb->is_wall() && shared.law == VIELTO &&
         (shared.springFactor != springFactor_ || shared.wallRadiusFactor != wallRadiusFactor_))
       error->warning(FLERR, "vielto: springFactor or wallRadiusFactor of this wall differs from pair_style's");
     if (!cmb->is_wall()) {
       shared.springFactor = springFactor_;
       shared.wallRadiusFactor = wallRadiusFactor_;
-      shared.law = vielto::VIELTO_LAW;
+      shared.law = VIELTO;
     }
   }
 

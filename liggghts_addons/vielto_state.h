@@ -6,13 +6,11 @@
 
 namespace vielto {
 
-enum Law { NO_LAW, VIELTO_LAW, COHFRICT_LAW, HERTZ_LAW, HOOKE_LAW };
-
 struct Settings {
   double springFactor;      // c_n
   double wallRadiusFactor;  // R_2/R_1 of a wall
-  Law law;                  // of the last pair_style
-  double maxOverlap;        // over the diameter; kept by HERTZ_LAW and HOOKE_LAW
+  int law;                  // LIGGGHTS' id of the last pair_style's normal model; 0: none of this package
+  double maxOverlap;        // over the diameter; 0: no limit
 };
 
 /* Sums since the fix last cleared them; energies in J, positive where energy leaves the grains.
@@ -34,12 +32,9 @@ struct Tally {
 };
 
 inline Settings& settings() {
-  static Settings s = {4.0, 2.0, NO_LAW, 0.0};
+  static Settings s = {4.0, 2.0, 0, 0.0};
   return s;
 }
-
-// LIGGGHTS' own laws, which keep no energy accounts.
-inline bool stock_law() { return settings().law == HERTZ_LAW || settings().law == HOOKE_LAW; }
 
 inline Tally& tally() {
   static Tally t = {};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /* The time scale that bounds the time step: the shortest half period of any contact that can occur (vielto_law.h),
-   with the settings of the pair_style line; of hertz at the overlap limit (vielto_stock.h). LIGGGHTS' own
+   with the settings of the pair_style line; of the law in use (law.h). LIGGGHTS' own
    check/timestep/gran is made for Hertzian contacts. */
 #ifndef VIELTO_CRITICAL_TIME_H
 #define VIELTO_CRITICAL_TIME_H

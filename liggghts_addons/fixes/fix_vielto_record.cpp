@@ -7,6 +7,7 @@
 #include <random>
 
 #include "atom.h"
+#include "engine/law.h"
 #include "error.h"
 #include "fix_gravity.h"
 #include "fix_mesh_surface.h"
@@ -73,8 +74,10 @@ int FixViEltoRecord::read_energy(const std::string& value) {
 
 void FixViEltoRecord::init() {
   FixViEltoRows::init();
-  if (energy_ && vielto::stock_law())
-    vielto::stop_all(lmp, "vielto: energy accounts are kept by the laws vielto and cohfrict only; leave energy off");
+  if (!energy_) return;
+  const vielto::Law& law = vielto::law_in_use(lmp, "fix vielto/record energy on");
+  if (law.energies.empty())
+    vielto::stop_all(lmp, ("vielto: law " + law.name + " keeps no energy accounts; leave energy off").c_str());
 }
 
 void FixViEltoRecord::pre_force(int vflag) {

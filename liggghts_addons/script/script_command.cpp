@@ -22,16 +22,23 @@
 #include "core/bad_input.h"
 #include "core/par_file.h"
 #include "engine/critical_time.h"
+#include "engine/law.h"
 #include "error.h"
 #include "force.h"
 #include "input.h"
 #include "script/clump.h"
+#include "script/command_line.h"
+#include "script/law_command.h"
 #include "universe.h"
 #include "variable.h"
 #include "vielto_state.h"
 #include "vielto_stop.h"
 
 using namespace LAMMPS_NS;
+using vielto::choices;
+using vielto::command_line;
+using vielto::is_number;
+using vielto::names_on_command_line;
 namespace fs = std::filesystem;
 
 namespace {
@@ -45,39 +52,6 @@ std::string sha256(const std::string& path) {
   pclose(pipe);
   const std::string line = got ? buffer.data() : "";
   return line.substr(0, line.find(' '));
-}
-
-std::string command_line() {
-  std::ifstream in("/proc/self/cmdline", std::ios::binary);
-  std::string text((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
-  for (char& c : text)
-    if (c == '\0') c = ' ';
-  while (!text.empty() && text.back() == ' ') text.pop_back();
-  return text;
-}
-
-bool is_number(const std::string& text) {
-  char* end = nullptr;
-  return !text.empty() && std::isfinite(strtod(text.c_str(), &end)) && *end == '\0';
-}
-
-// The words a parameter may take, from its unit field: "off or on", "uniform, alternating or mirrored".
-std::vector<std::string> choices(const std::string& unit) {
-  if (unit.find(" or ") == std::string::npos) return {};
-  std::istringstream words(unit);
-  std::vector<std::string> list;
-  for (std::string word; words >> word;)
-    if (word != "or") list.push_back(word.back() == ',' ? word.substr(0, word.size() - 1) : word);
-  return list;
-}
-
-// Names given with -var (or -v) on the command line.
-std::vector<std::string> names_on_command_line() {
-  std::ifstream in("/proc/self/cmdline", std::ios::binary);
-  std::vector<std::string> names;
-  for (std::string word; std::getline(in, word, '\0');)
-    if ((word == "-var" || word == "-v") && std::getline(in, word, '\0')) names.push_back(word);
-  return names;
 }
 
 std::string joined(int narg, char** arg, int from) {
@@ -149,8 +123,8 @@ void ViEltoCommand::command(int narg, char** arg) {
     property(narg, arg);
   else if (what == "pair_property" && narg == 4)
     pair_property(narg, arg);
-  else if (what == "lacks" && narg > 2)
-    lacks(narg, arg);
+  else if (what == "law")
+    vielto::LawCommand(lmp).command(narg, arg);
   else if (what == "check" && narg > 1)
     check(narg, arg);
   else if (what == "provisional" && narg > 2)
@@ -170,15 +144,13 @@ void ViEltoCommand::command(int narg, char** arg) {
   else
     vielto::stop_all(lmp,
                      "vielto: unknown form of this command; use error, half_period, shell, prime, words, property, "
-                     "pair_property, lacks, check, provisional, clump, grains, open, resume, bed or close");
+                     "pair_property, law, check, provisional, clump, grains, open, resume, bed or close");
 }
 
 void ViEltoCommand::half_period(int, char** arg) {
   if (std::string(arg[2]) != "radius" || std::string(arg[4]) != "density")
     vielto::stop_all(lmp, "vielto: write 'vielto half_period NAME radius R density RHO'");
-  if (vielto::settings().law == vielto::NO_LAW)
-    vielto::stop_all(
-        lmp, "vielto: half_period needs 'pair_style gran model vielto ...' (or another law of this package) before it");
+  vielto::law_in_use(lmp, "half_period");
   const double radius = force->numeric(FLERR, arg[3]), density = force->numeric(FLERR, arg[5]);
   if (!(radius > 0 && density > 0)) vielto::stop_all(lmp, "vielto: half_period needs a radius and a density > 0");
   char value[64];
@@ -242,29 +214,6 @@ void ViEltoCommand::pair_property(int, char** arg) {
   for (int i = 1; i <= atom->ntypes; i++)
     for (int j = 1; j <= atom->ntypes; j++) line += " " + (i == 2 || j == 2 ? wall : grain);
   input->one(line.c_str());
-}
-
-void ViEltoCommand::lacks(int narg, char** arg) {
-  std::string fault;
-  if (comm->me == 0) {
-    const std::vector<std::string> given = names_on_command_line();
-    const std::string law = std::string("vielto: law ") + arg[1];
-    for (int i = 2; i < narg; i++) {
-      const std::string item = arg[i], value = item.substr(std::min(item.find('=') + 1, item.size()));
-      const bool free = item.find('=') == std::string::npos;
-      for (std::string name : {item.substr(0, item.find('=')), "wall_" + item.substr(0, item.find('='))}) {
-        if (!fault.empty()) break;
-        const char* now = input->variable->retrieve(&name[0]);
-        if (free && std::find(given.begin(), given.end(), name) != given.end())
-          fault = law + " has no counterpart of " + name + " (cases/laws/" + arg[1] + ".in); leave out -var " + name;
-        else if (!free && now && now != value &&
-                 !(is_number(now) && is_number(value) && std::stod(now) == std::stod(value)))
-          fault = law + " has no counterpart of " + name + " " + now + " (cases/laws/" + arg[1] + ".in); give -var " +
-                  name + " " + value;
-      }
-    }
-  }
-  stop_if(fault);
 }
 
 void ViEltoCommand::check(int narg, char** arg) {
@@ -411,6 +360,12 @@ void ViEltoCommand::open(int narg, char** arg) {
             if (const char* value = input->variable->retrieve(&name[0])) run["parameters"][name] = value;
           }
       }
+      for (const vielto::Law& law : vielto::laws())
+        for (const vielto::LawParameter& p : law.parameters) {
+          std::string name = p.rule.name;
+          known.insert(name);
+          if (const char* value = input->variable->retrieve(&name[0])) run["parameters"][name] = value;
+        }
       for (const std::string& name : names_on_command_line())
         if (fault.empty() && !known.count(name))
           fault =

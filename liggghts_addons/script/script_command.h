@@ -9,9 +9,8 @@
    NAME to the K-th prime over 10000, as LIGGGHTS wants its seeds vielto words NAME W1 W2 ...               set variable
    NAME to these words (quoted text is not substituted by LIGGGHTS) vielto property NAME GRAIN WALL           fix NAME
    all property/global NAME peratomtype GRAIN WALL, with GRAIN again for a third type (fixed grains) vielto
-   pair_property NAME GRAIN WALL      the same for a peratomtypepair: of grain on grain and of grain on wall vielto
-   lacks LAW N1 N2=VALUE ...          stop if N1 was given by -var, or N2 (or wall_N2) is there and is not VALUE: what
-                                               this law has no counterpart of
+   pair_property NAME GRAIN WALL      the same for a peratomtypepair: of grain on grain and of grain on wall
+     vielto law ...                            the rigs' contact law (law_command.h)
      vielto check FILE [needs N1 N2 ...]       stop if the parameter file cannot be read, lacks one of these numbers, or
    if one of its parameters (or wall_PARAMETER) has been given a value of another kind: no number where it states one,
    none of the words its unit field allows (A, B or C) vielto provisional NAME F1 F2 ...         set variable NAME to 1
@@ -53,7 +52,6 @@ class ViEltoCommand : protected Pointers {
   void prime(int narg, char** arg);
   void property(int narg, char** arg);
   void pair_property(int narg, char** arg);
-  void lacks(int narg, char** arg);
   void check(int narg, char** arg);
   void provisional(int narg, char** arg);
   void clump(int narg, char** arg);

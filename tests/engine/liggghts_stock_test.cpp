@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/* LIGGGHTS' own laws as the rigs take them: cases/laws/hertz.in and hooke.in with a card's values, through `liggghts`,
+/* LIGGGHTS' own laws as the rigs take them: `vielto law properties` with a card's values, through `liggghts`,
    against closed forms in the card's own terms; the watched models against the stock ones; time scale, overlap limit.
 
      k_n = 2 E R (equal spheres), 4 E E_w w/(E + w E_w) R (wall, R_2 = w R);  F = c_n k_n u
@@ -34,7 +34,7 @@ std::string models(const std::string& law) {
   return "model " + law + "/watched tangential history rolling_friction epsd2 ";
 }
 
-// Up to the integration, with the card's values mapped by the rigs' own file.
+// Up to the integration, with the card's values mapped as in the rigs.
 std::string start(const Liggghts& run, const std::string& law, const std::vector<Sphere>& spheres,
                   double dtFraction = 0.05, double wallModulus = wallE) {
   std::string text =
@@ -43,14 +43,16 @@ std::string start(const Liggghts& run, const std::string& law, const std::vector
       fmt::format("variable law index {}\nvariable grainDiameter index {}\nvariable density index 1375\n", law, 2 * R) +
       fmt::format("variable springFactor index {}\nvariable wallRadiusFactor index {}\n", cn, w) +
       fmt::format("variable wallRolling index {}\n", wallRolling) +
-      fmt::format("variable poissonsRatio index {}\nvariable hertzOverlap index {}\n", nu, hertzOverlap);
+      (law == "hertz"
+           ? fmt::format("variable poissonsRatio index {}\nvariable hertzOverlap index {}\n", nu, hertzOverlap)
+           : "");
   const std::map<std::string, std::pair<double, double>> card = {{"youngsModulus", {E, wallModulus}},
                                                                  {"normalDamping", {betaGrain, betaWall}},
                                                                  {"frictionAngle", {phiGrain, phiWall}},
                                                                  {"rollingResistance", {rollGrain, rollWall}}};
   for (const auto& [name, values] : card)
     text += fmt::format("variable {0} index {1}\nvariable wall_{0} index {2}\n", name, values.first, values.second);
-  return text + fmt::format("include {}/cases/laws/{}.in\npair_coeff * *\n", VIELTO_SOURCE_DIR, law) +
+  return text + "vielto law properties\npair_coeff * *\n" +
          fmt::format("vielto half_period tc radius {:.17g} density 1375\nprint \"tc=${{tc}}.\"\n", R) +
          fmt::format("variable dt equal {:.17g}*${{tc}}\ntimestep ${{dt}}\nfix move all nve/sphere\n", dtFraction);
 }

@@ -1,22 +1,32 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The rigs with LIGGGHTS' own laws, -var law hertz and hooke: a short coarse drum of each, and what they cannot honour.
+// Every law in the rigs (liggghts_addons/CMakeLists.txt names them): a short coarse drum of each, and what they cannot
+// honour; a shear box of one of LIGGGHTS' own.
 #include "rig_runner.h"
 
 using namespace vielto_test;
 
 namespace {
 
-// Grains of 1 cm turned fast; Hertz' time step follows the overlap limit.
+// Grains of 1 cm turned fast; Hertz' time step follows the overlap limit. CohFrictPhys, without damping, presses
+// deepest.
 const std::string coarse =
     "-var grainDiameter 0.01 -var youngsModulus 2e4 -var wall_youngsModulus 2e4 -var speed 0.5 -var startAngle 40 "
     "-var frames 3 -var frameAngle 5 -var settleTime 0.2 -var maxOverlap 0.1 ";
 
-class StockDrum : public testing::TestWithParam<const char*> {};
+class LawDrum : public testing::TestWithParam<std::string> {};
+
+std::vector<std::string> laws() {
+  std::vector<std::string> options;
+  std::istringstream names(VIELTO_LAWS);
+  for (std::string name; names >> name;) options.push_back("-var law " + name + " ");
+  options.push_back("-var law hooke -var cohesion sjkr2 -var cohesionEnergyDensity 100 ");
+  return options;
+}
 
 }  // namespace
 
 /* The bed keeps its grains within the drum and is carried up on the side of positive y (drum_run_test.cpp). */
-TEST_P(StockDrum, CarriesTheBedUp) {
+TEST_P(LawDrum, CarriesTheBedUp) {
   Rig rig("drum");
   rig.must("run", coarse, GetParam());
   const Table bed = rig.csv("run/bed_3.csv");
@@ -33,9 +43,7 @@ TEST_P(StockDrum, CarriesTheBedUp) {
   EXPECT_NE(rig.read("run/bed_1.csv").find("# dt_over_tc=0.05\n"), std::string::npos);
 }
 
-INSTANTIATE_TEST_SUITE_P(Laws, StockDrum,
-                         testing::Values("-var law hertz ", "-var law hooke ",
-                                         "-var law hooke -var cohesion sjkr2 -var cohesionEnergyDensity 100 "));
+INSTANTIATE_TEST_SUITE_P(Laws, LawDrum, testing::ValuesIn(laws()));
 
 /* The bed is filled slippery (5 deg) and sheared with the card's friction (contacts of 26 and 27 deg): it resists by
  * far more than one that stays slippery. */
@@ -76,5 +84,17 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"Dashpot", "drum", "-var law hertz -var wall_tangentialDamping 0.3", {"wall_tangentialDamping 0.3"}},
         Refusal{"NoRestitution", "drum", "-var law hooke -var normalDamping 3", {"normalDamping", "0.69"}},
         Refusal{"NoLimit", "drum", "-var law hertz -var maxOverlap 0", {"hertz needs a maxOverlap > 0"}},
-        Refusal{"NoSuchLaw", "drum", "-var law hertzian", {"law is 'hertzian'", "vielto, cohfrict, hertz or hooke"}}),
+        Refusal{"NoSuchLaw", "drum", "-var law hertzian", {"law is 'hertzian'", "give vielto, cohfrict, hertz"}},
+        Refusal{"NoSuchPartner",
+                "drum",
+                "-var law hooke -var cohesion adhesion",
+                {"law hooke takes no cohesion adhesion", "sjkr, sjkr2 or off"}},
+        Refusal{"OwnCohesion", "drum", "-var law cohfrict -var cohesion adhesion", {"law cohfrict", "normalCohesion"}},
+        Refusal{"ParameterOfAnotherLaw",
+                "drum",
+                "-var hertzOverlap 0.02",
+                {"law vielto has no counterpart of hertzOverlap 0.02"}},
+        Refusal{"OutOfRange", "drum", "-var law hertz -var hertzOverlap 0.2", {"hertzOverlap is '0.2'", "(0, 0.1]"}},
+        Refusal{"NoNumber", "drum", "-var law hertz -var poissonsRatio 0,3", {"poissonsRatio is '0,3'", "[0, 0.5]"}},
+        Refusal{"NoWord", "drum", "-var law cohfrict -var bondNewContacts 1", {"bondNewContacts is '1'", "on or off"}}),
     [](const auto& one) { return one.param.name; });

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "script/command_line.h"
+
+#include <stdlib.h>
+
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <sstream>
+
+namespace vielto {
+
+std::string command_line() {
+  std::ifstream in("/proc/self/cmdline", std::ios::binary);
+  std::string text((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
+  for (char& c : text)
+    if (c == '\0') c = ' ';
+  while (!text.empty() && text.back() == ' ') text.pop_back();
+  return text;
+}
+
+std::vector<std::string> names_on_command_line() {
+  std::ifstream in("/proc/self/cmdline", std::ios::binary);
+  std::vector<std::string> names;
+  for (std::string word; std::getline(in, word, '\0');)
+    if ((word == "-var" || word == "-v") && std::getline(in, word, '\0')) names.push_back(word);
+  return names;
+}
+
+bool is_number(const std::string& text) {
+  char* end = nullptr;
+  return !text.empty() && std::isfinite(strtod(text.c_str(), &end)) && *end == '\0';
+}
+
+std::vector<std::string> choices(const std::string& unit) {
+  if (unit.find(" or ") == std::string::npos) return {};
+  std::istringstream words(unit);
+  std::vector<std::string> list;
+  for (std::string word; words >> word;)
+    if (word != "or") list.push_back(word.back() == ',' ? word.substr(0, word.size() - 1) : word);
+  return list;
+}
+
+}  // namespace vielto
