@@ -297,4 +297,17 @@ TEST_F(GapLibraryPlan, RefusesAPlanThatCannotBeRun) {
   refused("members = [2, 4]", "members = [2, 4]\nmembers_from = \"../other.csv\"", "has other parameters than");
 }
 
+// A library whose inputs.csv names a file that has moved is refused whole, before its numbers are looked at.
+TEST(CommittedLibraries, NameInputsThatAreThere) {
+  int files = 0;
+  for (const auto& library : fs::directory_iterator(VIELTO_SOURCE_DIR "/libraries")) {
+    std::ifstream inputs(library.path() / "inputs.csv");
+    std::string line;
+    std::getline(inputs, line);  // file,sha256
+    for (; std::getline(inputs, line); ++files)
+      EXPECT_TRUE(fs::exists(library.path() / line.substr(0, line.find(',')))) << library.path() << ": " << line;
+  }
+  EXPECT_GT(files, 20);
+}
+
 }  // namespace
