@@ -143,6 +143,21 @@ TEST_F(MeasurementChain, TheDriveFlattensTheGrowthWithSpeed) {
   EXPECT_GT(exponent("drive_loss", 0.1, 30, 75), 0);  // losses that grow with speed go the other way
 }
 
+// One and the same weight of 8 N m at 0.48 and 1.58 1/s: the ratio of its readings by the formulas. Copper: s (T0 + 2
+// T0/2) over T0, 2 s/n.
+TEST_F(MeasurementChain, ADeadWeightAtTwoSpeedsTellsTheDrivesApart) {
+  const Settings settings = Settings::read(kLibraries + "diagnosis.toml");
+  const auto ratio = [&](const char* name, double s) {
+    const Effect effect = read_effect(kLibraries + "effects/" + name + ".toml", settings);
+    const Transform& t = *effect.transform_of("bench", "dead_weight_gain");
+    return t.reading(at_speed(0.48), 1, s).value / t.reading(at_speed(1.58), 1, s).value;
+  };
+  EXPECT_NEAR(ratio("worm_gear", 1), 0.8507 / 0.7733, 2e-3);  // efficiencies of the formula, three decimals in the file
+  EXPECT_NEAR(ratio("motor_copper", 0.06), (1 + 0.12 / 0.48) / (1 + 0.12 / 1.58), 1e-12);
+  EXPECT_NEAR(ratio("drive_loss", 0.1), (1 + 0.1 * std::sqrt(0.48)) / (1 + 0.1 * std::sqrt(1.58)), 1e-12);
+  EXPECT_DOUBLE_EQ(ratio("sensor_gain", 0.1), 1);
+}
+
 TEST_F(MeasurementChain, BadInputIsOneLine) {
   const std::string operation = "operation = \"efficiency\"\n";
   const auto refused = [&](const std::string& lines, std::vector<std::string> words) {
