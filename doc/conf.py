@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-# The site: MyST pages under Sphinx with furo's looks. Built by scripts/docs, which makes reference/ from the code first.
+# The site: MyST pages under Sphinx with furo's looks. scripts/docs builds it.
 import pathlib
 import re
 import sys
@@ -8,18 +8,18 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(ROOT / "doc" / "_ext"))
 
 project = "ViElTo for LIGGGHTS"
-author = "the authors (AUTHORS)"
+author = "see AUTHORS"
 release = re.search(r"VERSION ([\d.]+)", (ROOT / "CMakeLists.txt").read_text().split("project(")[1])[1]
-extensions = ["myst_parser", "results", "sphinx.ext.mathjax"]
-myst_enable_extensions = ["colon_fence", "dollarmath", "amsmath", "deflist"]
+extensions = ["myst_parser", "mathml", "results", "from_code"]
+myst_enable_extensions = ["colon_fence", "dollarmath", "deflist"]
 myst_heading_anchors = 3
 exclude_patterns = ["_ext"]
 html_theme = "furo"
 html_title = f"ViElTo for LIGGGHTS {release}"
 html_static_path = ["_static"]
-html_css_files = ["results.css"]
+html_css_files = ["site.css"]
 html_show_sphinx = False
-numfig = True
+html_math_renderer = "mathml"
 math_number_all = False
 math_eqref_format = "({number})"
 
@@ -30,4 +30,5 @@ def setup(app):
     app.add_lexer("arrows", TextLexer)
 
 
+# other sites are looked up where there is a network: scripts/docs --linkcheck
 linkcheck_ignore = [r"https?://"]

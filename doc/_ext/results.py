@@ -94,19 +94,21 @@ class Results(Directive):
         return [table([label.strip() for label, _ in columns], cells)]
 
 
-def table(head, body):
+def table(head, body, code=0):
+    """Rows of words; the first `code` columns are set as code."""
     group = nodes.tgroup(cols=len(head))
     group += [nodes.colspec(colwidth=1) for _ in head]
 
-    def row(cells):
+    def row(cells, code):
         line = nodes.row()
-        for cell in cells:
-            line += nodes.entry("", nodes.paragraph(text=cell))
+        for column, cell in enumerate(cells):
+            text = nodes.literal(text=cell) if column < code else nodes.Text(cell)
+            line += nodes.entry("", nodes.paragraph("", "", text))
         return line
 
-    group += nodes.thead("", row(head))
-    group += nodes.tbody("", *(row(cells) for cells in body))
-    return nodes.table("", group, classes=["results"])
+    group += nodes.thead("", row(head, 0))
+    group += nodes.tbody("", *(row(cells, code) for cells in body))
+    return nodes.table("", group, classes=["words" if code else "results"])
 
 
 def setup(app):

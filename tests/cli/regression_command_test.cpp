@@ -224,12 +224,12 @@ TEST_F(Regression, LargestFillForAMotorInvertsTheEquation) {
   const double limit = 50, k = power_of(15.68, 1.04, 0.1, -0.25, 1, 1.21, 825, 6175);
   const json j = result("predict --thesis" + kMillet + " --speeds 0.5,1.21 --motor-power 60 --idle-power 10");
   EXPECT_NEAR(j["largest_fill"][1]["expected"].get<double>(), std::pow(limit / k, 1 / 1.04), 1e-9);
-  const double upper = std::exp(1.95996 * 0.137 / 2.0772);  // the booklet's error, doc/equation.md
+  const double upper = std::exp(1.95996 * 0.137 / 2.0772);  // the booklet's error, doc/theory/equation.md
   EXPECT_NEAR(j["largest_fill"][1]["safe"].get<double>(), std::pow(limit / upper / k, 1 / 1.04), 1e-5);
   EXPECT_EQ(j["largest_fill"][0]["expected"].get<double>(), 0.25);  // the motor is strong enough for the whole range
 }
 
-// The committed table of the booklet's equation is what its documented command makes (doc/equation.md).
+// The committed table of the booklet's equation is what its documented command makes (doc/theory/equation.md).
 TEST_F(Regression, CommittedTableOfTheBookletsEquationIsReproduced) {
   ASSERT_EQ(run("predict --thesis --mixer " + kSource + "/cases/mixer/mixer.par --material " + kSource +
                 "/materials/hulled_millet.par --wall " + kSource + "/materials/steel.par --moisture 0.089 " +

@@ -72,7 +72,7 @@ TEST(Prediction, BookletsEquationGivesItsPowers) {
   EXPECT_NEAR(at(thesis_equation(), 0.25, 1.58).power, 75.38, 0.006);
 }
 
-// 13.7 % over the expected largest of 16 normal deviates, 2.077 (doc/equation.md).
+// 13.7 % over the expected largest of 16 normal deviates, 2.077 (doc/theory/equation.md).
 TEST(Prediction, BookletsUncertaintyFollowsFromItsLargestError) {
   EXPECT_NEAR(thesis_relative_u(), 0.137 / 2.077, 1e-4);
   const Prediction p = at(thesis_equation(), 0.15, 1);

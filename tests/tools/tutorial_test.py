@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""doc/tutorial.md does what it says: every line after `$` is run, in order, and the lines under it come out, in order.
+"""doc/guide/measured_against_simulated.md does what it says: every line after `$` is run, in order, and the lines under it come out, in order.
 
   tutorial_test.py BIN        folder of vielto
 """
@@ -12,7 +12,7 @@ import sys
 import tempfile
 
 root = pathlib.Path(__file__).resolve().parents[2]
-page = (root / "doc/tutorial.md").read_text()
+page = (root / "doc/guide/measured_against_simulated.md").read_text()
 steps = []  # command, lines that must come out
 for block in re.findall(r"^ *```\n(.*?)^ *```", page, re.M | re.S):
     for line in block.splitlines():

@@ -1,0 +1,96 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Pages from the code itself:
+
+    {command-help} vielto gap diagnose      what the program says to --help; VIELTO_BIN is its folder (default: build/bin)
+    {parameters} cases/mixer/mixer.par      the lines of a parameter file or card: name, value, unit, u, source
+    {effects} libraries/effects             one row an effect file
+"""
+import os
+import pathlib
+import re
+import subprocess
+import tomllib
+
+from docutils import nodes
+from docutils.parsers.rst import Directive
+
+from results import table
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+LINE = re.compile(r"variable\s+(\S+)\s+index\s+(\S+)(?:\s*#\s*(.*))?$")
+
+
+class FromFile(Directive):
+    """A directive of one argument, a path from the repository's root."""
+
+    required_arguments = 1
+
+    def path(self):
+        path = ROOT / self.arguments[0]
+        if not path.exists():
+            raise self.error(f"{self.arguments[0]}: is not in the repository")
+        self.state.document.settings.env.note_dependency(str(path))
+        return path
+
+
+class Parameters(FromFile):
+    def run(self):
+        rows = []
+        for line in self.path().read_text(encoding="utf-8").splitlines():
+            found = LINE.match(line.strip())
+            if found:
+                name, value, note = found.groups()
+                parts = [part.strip() for part in (note or "").split("|")]
+                rows.append([name, value, parts[0], *parts[1:-1], parts[-1] if len(parts) > 1 else ""])
+        if not rows:
+            raise self.error(f"{self.arguments[0]}: has no `variable NAME index VALUE`")
+        width = max(len(row) for row in rows)
+        heads = {5: ["name", "value", "unit", "u", "source"], 6: ["name", "value", "unit", "u", "range", "source"]}
+        if width not in heads:
+            raise self.error(f"{self.arguments[0]}: {width} columns; say in from_code.py what they are")
+        rows = [row[:-1] + [""] * (width - len(row)) + row[-1:] for row in rows]
+        return [table(heads[width], rows, code=2)]
+
+
+class Effects(FromFile):
+    def run(self):
+        rows = []
+        for file in sorted(self.path().glob("*.toml")):
+            self.state.document.settings.env.note_dependency(str(file))
+            text = file.read_text(encoding="utf-8")
+            effect = tomllib.loads(text)
+            first = re.match(r"#\s*(.*)", text)
+            rows.append(
+                [
+                    effect["name"],
+                    first.group(1) if first else "",
+                    effect["kind"],
+                    f"{effect['prior_low']:g} … {effect['prior_high']:g} {effect['unit']}".replace("-", "−"),
+                    effect["source"],
+                ]
+            )
+        if not rows:
+            raise self.error(f"{self.arguments[0]}: has no effect file")
+        return [table(["effect", "what it is", "kind", "range", "source of the range"], rows, code=1)]
+
+
+class CommandHelp(Directive):
+    required_arguments = 1
+    final_argument_whitespace = True
+
+    def run(self):
+        program, *words = self.arguments[0].split()
+        path = pathlib.Path(os.environ.get("VIELTO_BIN", ROOT / "build/bin")) / program
+        if not path.exists():
+            return [nodes.paragraph(text=f"{program} was not built when this page was made: scripts/build release")]
+        done = subprocess.run([program, *words, "--help"], executable=path, capture_output=True, text=True)
+        if done.returncode != 0:
+            raise self.error(f"{self.arguments[0]} --help: {done.stderr.strip()}")
+        return [nodes.literal_block(text=done.stdout.rstrip(), language="text")]
+
+
+def setup(app):
+    app.add_directive("parameters", Parameters)
+    app.add_directive("effects", Effects)
+    app.add_directive("command-help", CommandHelp)
+    return {"parallel_read_safe": True}
