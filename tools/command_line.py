@@ -8,11 +8,11 @@ import sys
 from tools.errors import BadInput, RunFailed
 
 
-def run(name, description, module):
-    """A program with one job: module.add_options(parser), module.work(options)."""
+def run(name, description, add_options, work):
+    """A program with one job: add_options(parser), then work(options), which may return an exit status."""
     parser = _parser(name, description)
-    module.add_options(parser)
-    return _finish(name, lambda: module.work(parser.parse_args()))
+    add_options(parser)
+    return _finish(name, lambda: work(parser.parse_args()))
 
 
 def run_subcommands(name, description, modules):
@@ -54,6 +54,8 @@ def _finish(name, work):
         return 1
     except subprocess.CalledProcessError as e:  # it has said what is wrong itself
         return e.returncode
+    except KeyboardInterrupt:
+        return 130
     except BrokenPipeError:  # a reader that has seen enough (| head) is no fault
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 0

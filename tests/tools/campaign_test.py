@@ -2,8 +2,6 @@
 """scripts/campaign through its command line: a study of small mixer runs; killed with all that it started, and called
 again, it ends with the same tables to the last digit; bad studies are refused.
    campaign_test.py BIN    folder of our liggghts and vielto"""
-import importlib.machinery
-import importlib.util
 import pathlib
 import shutil
 import subprocess
@@ -23,6 +21,11 @@ def campaign(table, out):
     return [ROOT / "scripts/campaign", table, "--out", out, "--bin", BIN, "--cores", "2", "--every", "2"]
 
 
+def running(pattern):
+    """Command lines of processes, one a line."""
+    return subprocess.run(["pgrep", "-af", pattern], capture_output=True, text=True).stdout
+
+
 def tables(out):
     # conditions and values; not the lines that tell when a run was made
     return {name: (out / name).read_text() for name in ("observations.csv", "runs.csv")}
@@ -30,13 +33,13 @@ def tables(out):
 
 if not shutil.which("snakemake"):
     sys.exit(77)
-loader = importlib.machinery.SourceFileLoader("campaign", str(ROOT / "scripts/campaign"))
-program = importlib.util.module_from_spec(importlib.util.spec_from_loader("campaign", loader))
-loader.exec_module(program)
+sys.path.insert(0, str(ROOT))
+from tools import rigs  # noqa: E402
+from tools.campaign import finished  # noqa: E402
 
 
 def share(faster, slower):
-    return program.work(slower) / program.work(faster)
+    return rigs.work(slower) / rigs.work(faster)
 
 
 # what the time left rests on: grains times steps
@@ -54,7 +57,9 @@ with tempfile.TemporaryDirectory(prefix="vielto-campaign-") as name:
     (folder / "runs/a.log").write_text(
         "run 1 of 1\ndisplacement 1.7 of 8.0 mm, 0:18 left\ndisplacement 2.0 of 8.0 mm, shear force 9 N, 0:15 left\n"
     )
-    assert abs(program.share_done(folder, {"run": "a"}) - 0.25) < 1e-9 and program.share_done(folder, {"run": "b"}) == 0
+    assert (
+        abs(finished.share_done(folder, {"run": "a"}) - 0.25) < 1e-9 and finished.share_done(folder, {"run": "b"}) == 0
+    )
     study = folder / "study.csv"
     study.write_text(STUDY)
     whole = subprocess.run(campaign(study, folder / "whole"), capture_output=True, text=True)
@@ -76,19 +81,22 @@ with tempfile.TemporaryDirectory(prefix="vielto-campaign-") as name:
         sys.exit(f"no record of the run to kill: {started.communicate(timeout=1)}")
     subprocess.run(["pkill", "-KILL", "-f", str(out)])
     started.wait()
+    for _ in range(100):
+        if not running(str(out)):
+            break
+        time.sleep(0.1)
     assert not (out / "observations.csv").exists()
     assert record.exists()
     # told to end, it ends with all that it started
     told = subprocess.Popen(campaign(study, out), stdout=subprocess.DEVNULL, stderr=subprocess.STDOUT)
     for _ in range(600):
-        if subprocess.run(["pgrep", "-f", f"liggghts.*{out}"], stdout=subprocess.DEVNULL).returncode == 0:
+        if running(f"liggghts.*{out}"):
             break
         time.sleep(0.1)
     told.terminate()
-    assert told.wait(20) == 130
+    assert told.wait(20) == 130, told.returncode
     time.sleep(0.5)
-    left = subprocess.run(["pgrep", "-af", str(out)], capture_output=True, text=True).stdout
-    assert not left, left
+    assert not running(str(out)), running(str(out))
     again = subprocess.run(campaign(study, out), capture_output=True, text=True)
     assert again.returncode == 0, again.stdout + again.stderr + (out / "snakemake.log").read_text()
     assert tables(out) == tables(folder / "whole")
@@ -138,13 +146,13 @@ with tempfile.TemporaryDirectory(prefix="vielto-campaign-") as name:
     assert third.returncode == 0 and tables(folder / "whole") == before, third.stdout + third.stderr
 
     for text, fault in (
-        ("run,rig,seed\na,mill,1\n", "line 2: a run needs a name in `run` and one of mixer, shearbox, repose"),
-        ("run,rig,seed\na,mixer,1\na,mixer,2\n", "line 3: run a is there twice"),
-        ("run,rig,bed\na,shearbox,b\n", "line 2: bed b is no run of this study"),
-        ("run,rig,seed\na,mixer\n", "line 2: it has not as many cells as the header"),
-        ("run,rig,seed\nidle_1,mixer,1\n", "line 2: 'idle_1' is no name for a run"),
-        ("run,rig,seed\na b,mixer,1\n", "line 2: 'a b' is no name for a run"),
-        ("run,rig,seed\n", "there are no runs in it"),
+        ("run,rig,seed\na,mill,1\n", ":2: a run needs a name in `run` and one of mixer, shearbox, repose"),
+        ("run,rig,seed\na,mixer,1\na,mixer,2\n", ":3: a is there twice"),
+        ("run,rig,bed\na,shearbox,b\n", ":2: bed b is no run of this study"),
+        ("run,rig,seed\na,mixer\n", ":2: has not as many cells as the header"),
+        ("run,rig,seed\nidle_1,mixer,1\n", ":2: 'idle_1' is no name for a run"),
+        ("run,rig,seed\na b,mixer,1\n", ":2: 'a b' is no name for a run"),
+        ("run,rig,seed\n", "holds no row"),
     ):
         study.write_text(text)
         refused = subprocess.run(campaign(study, folder / "bad"), capture_output=True, text=True)
@@ -154,7 +162,8 @@ with tempfile.TemporaryDirectory(prefix="vielto-campaign-") as name:
     for words, fault in (
         ((study, folder / "bad"), "is no CSV table"),
         ((folder, folder / "bad"), "there is no study"),
-        ((folder / "none.csv", folder / "bad"), "known: calibration"),
+        ((folder / "none.csv", folder / "bad"), "none.csv: No such file or directory; give `run,rig`"),
+        (("none", folder / "bad"), "known: calibration"),
         (("grid", study), "cannot be made"),
     ):
         refused = subprocess.run(campaign(*words), capture_output=True, text=True)
@@ -165,9 +174,7 @@ with tempfile.TemporaryDirectory(prefix="vielto-campaign-") as name:
     assert (
         missing.returncode == 2 and "there is no study nonsense; known: " in missing.stderr and "grid" in missing.stderr
     ), missing
-    assert (
-        program.work({"rig": "mixer", "speed": "0"}) == 0 and program.work({"rig": "mixer", "youngsModulus": "-1"}) == 0
-    )
+    assert rigs.work({"rig": "mixer", "speed": "0"}) == 0 and rigs.work({"rig": "mixer", "youngsModulus": "-1"}) == 0
     study.write_text("run,rig,speed\na,mixer,-1\n")
     failed = subprocess.run(campaign(study, folder / "failed"), capture_output=True, text=True)
     assert failed.returncode == 1 and "not all runs ended well" in failed.stderr, failed

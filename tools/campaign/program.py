@@ -1,0 +1,123 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""The command scripts/campaign."""
+import argparse
+import os
+import pathlib
+import shutil
+import signal
+import subprocess
+import time
+
+from tools import ROOT, campaign, command_line
+from tools.campaign import finished, study
+from tools.errors import BadInput, RunFailed
+
+HERE = pathlib.Path(__file__).resolve().parent
+
+
+def main():
+    return command_line.run("campaign", campaign.__doc__, add_options, work)
+
+
+def at_least_one(text):
+    if not text.isdigit() or int(text) < 1:
+        raise argparse.ArgumentTypeError(f"'{text}' is no number of runs; give 1 or more")
+    return int(text)
+
+
+def add_options(parser):
+    parser.add_argument("study", help="name of a table in studies, without .csv, or a table's path")
+    parser.add_argument("--out", type=pathlib.Path, help="folder of runs and tables, default results/studies/NAME")
+    parser.add_argument("--bin", type=pathlib.Path, help="folder of our liggghts and vielto; default: they are built")
+    parser.add_argument("--cores", type=at_least_one, default=os.cpu_count(), help="runs at a time on this machine")
+    parser.add_argument("--slurm", action="store_true", help="submit the runs to Slurm with sbatch")
+    parser.add_argument(
+        "--only", default="", metavar="END", help="runs whose names end so, for a study in portions: _s1"
+    )
+    parser.add_argument(
+        "--again", action="store_true", help="make runs anew that were made from other files or settings"
+    )
+    parser.add_argument("--every", type=float, default=60, help="seconds between two lines of progress")
+
+
+def work(options):
+    signal.signal(signal.SIGTERM, signal.default_int_handler)  # told to end is interrupted
+    table = pathlib.Path(study.find(options.study)).resolve()
+    if options.slurm and not shutil.which("sbatch"):
+        raise BadInput("--slurm needs sbatch, which is not on the PATH; install slurm-client or leave --slurm out")
+    every = study.read(table)
+    points = [p for p in every if p["run"].endswith(options.only)]
+    if not points:
+        raise BadInput(f"no run of {table} ends in {options.only}; --only takes the end of runs' names")
+    if not options.bin:
+        subprocess.run([ROOT / "scripts/install-packages", "demo", "campaign"], check=True)
+        subprocess.run([ROOT / "scripts/build", "release", "vielto", "vielto_run"], check=True)
+    out = (options.out or ROOT / "results/studies" / table.stem).resolve()
+    make_ready(out, points, options.again)
+    status = run_all(out, points, options, table)
+    missing = finished.gather(out, every) & {p["run"] for p in points}
+    if (out / "observations.csv").exists():
+        print(f"table: {os.path.relpath(out / 'observations.csv')}")
+    if status or missing:
+        lacking = f"; not in the tables: {', '.join(sorted(missing))}" if missing else ""
+        raise RunFailed(f"not all runs ended well{lacking}; {out / 'snakemake.log'} tells why")
+    return 0
+
+
+def make_ready(out, points, again):
+    """The folder, without runs that are out of date and without the tables, which are made at the end."""
+    try:
+        out.mkdir(parents=True, exist_ok=True)
+    except OSError as e:
+        raise BadInput(f"{out}: cannot be made: {e.strerror}; state another folder with --out")
+    stale = list(finished.stale_runs(out, points))
+    if stale and not again:
+        raise BadInput(
+            f"{out}: finished runs out of date: {len(stale)}; {stale[0][0]} was made {stale[0][1]}; "
+            "--again makes them anew, or move the folder away"
+        )
+    for run, _ in stale:
+        finished.forget(out, run)
+    for name in ("observations.csv", "runs.csv"):
+        (out / name).unlink(missing_ok=True)
+
+
+def run_all(out, points, options, table):
+    """Snakemake's exit status."""
+    command = ["snakemake", "--snakefile", HERE / "Snakefile", "--directory", out]
+    command += ["--config", f"table={table}", f"out={out}", *([f"only={options.only}"] if options.only else [])]
+    command += ["--nolock", "--rerun-incomplete", "--rerun-triggers", "mtime", "--keep-going", "--quiet", "all"]
+    command += ["--profile", HERE / "slurm"] if options.slurm else ["--cores", str(options.cores)]
+    env = dict(
+        os.environ,
+        PATH=f"{(options.bin or ROOT / 'build/bin').resolve()}:{os.environ['PATH']}",
+        OMPI_ALLOW_RUN_AS_ROOT="1",
+        OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1",
+    )
+    started, (first, _) = time.time(), finished.work_done(out, points)
+    engine = None
+    try:
+        with open(out / "snakemake.log", "a") as log:
+            # in a session of its own: when this command is told to end, all that it started ends with it
+            engine = subprocess.Popen(command, env=env, stdout=log, stderr=log, start_new_session=True)
+        while engine.poll() is None:
+            tell_progress(out, points, started, first)
+            try:
+                engine.wait(options.every)
+            except subprocess.TimeoutExpired:
+                pass
+    except KeyboardInterrupt:
+        if engine:
+            os.killpg(engine.pid, signal.SIGKILL)  # runs begin anew or go on from a restart, as after any kill
+            engine.wait()
+        raise
+    tell_progress(out, points, started, first)
+    return engine.returncode
+
+
+def tell_progress(out, points, started, first):
+    done, total = finished.work_done(out, points)
+    ended = sum((out / "done" / p["run"]).exists() for p in points)
+    minutes = (time.time() - started) * (total - done) / (done - first) / 60 if done > first else None
+    left = "" if minutes is None else f", {minutes:.0f} min left"
+    print(f"{ended} of {len(points)} runs, {100 * done / total:.0f} % of the work{left}", flush=True)
