@@ -178,7 +178,7 @@ void check_effects(const Library& library, const std::vector<Effect>& effects) {
     for (const Effect& e : effects)
       if (const std::string now = e.changes(std::string(f[1])); e.name == f[0] && now != f[2])
         throw BadInput(path, line, "changes", fmt::format("the library is stale: {} now says '{}'", e.path, now),
-                       "make the effect's runs again and add them with gap/portion, or bring the file back");
+                       "make the effect's runs again and add them with scripts/library add, or bring the file back");
   });
 }
 

@@ -124,7 +124,7 @@ TEST_F(GapBlind, TheAnswerIsTheSameWithAndWithoutTruthsInReach) {
   ASSERT_TRUE(fs::exists(folder_ / "blind/truth/0001.json"));  // back in place
   fs::copy(folder_ / "answers/0001", folder_ / "apart", fs::copy_options::recursive);
   fs::remove_all(folder_ / "answers/0001");
-  ASSERT_EQ(run(fmt::format("cd '{}' && '{}/gap/blind/diagnose-all' blind/cases answers sealed/isolability.json "
+  ASSERT_EQ(run(fmt::format("cd '{}' && '{}/scripts/blind' diagnose blind/cases answers sealed/isolability.json "
                             "libraries/millet --draws 200",
                             folder_.string(), VIELTO_SOURCE_DIR)),
             0)

@@ -14,8 +14,8 @@ truth=()
 for t in truth/*/; do truth+=(--truth "$t"); done
 gap-withhold --library libraries/millet "${truth[@]}" --tests tests.csv --sealed sealed/isolability.json --plan "$plan" --out blind >/dev/null
 # The diagnosis runs without any truth in reach.
-"$here/../../gap/blind/in-secret" truth blind/truth blind/seals.sha256 -- \
-  "$here/../../gap/blind/diagnose-all" blind/cases answers sealed/isolability.json libraries/millet --draws "$draws"
+"$here/../../scripts/blind" hide truth blind/truth blind/seals.sha256 -- \
+  "$here/../../scripts/blind" diagnose blind/cases answers sealed/isolability.json libraries/millet --draws "$draws"
 gap-score blind --answers answers --sealed sealed/isolability.json --out score.json
 for k in 1 2 3 4 5 6 7 8; do
   gap-score blind --answers answers --sealed sealed/isolability.json --shuffle $k --out shuffled$k.json

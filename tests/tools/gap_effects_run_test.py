@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Every effect that acts on the mixer, by its own file, in a small run of it: with all switches at zero the record is the
 baseline's bit for bit; with one effect on, the parameters that its file names change, no others, and so does the record;
-the mesh changes with the effects on the geometry alone. Figures of how strongly: gap/responses, gap/README.md.
+the mesh changes with the effects on the geometry alone. Figures of how strongly: scripts/library responses, gap/README.md.
    gap_effects_run_test.py BIN    folder of our liggghts and vielto"""
 import csv
 import json

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""gap/portion: a library in portions is the library made in one go; a changed file needs repeated runs with equal numbers.
+"""scripts/library add: a library in portions is the library made in one go; a changed file needs repeated runs with equal numbers.
 
-  gap_portion_test.py VIELTO      the program; run from anywhere
+  library_add_test.py VIELTO      the program; run from anywhere
 The campaign's results are stand-ins: what a run leaves, with numbers from a formula.
 """
 import csv
@@ -58,7 +58,9 @@ class Portion(unittest.TestCase):
         return self.run_program(VIELTO, *words)
 
     def portion(self, results):
-        return self.run_program(ROOT / "gap/portion", "libraries/millet/plan.toml", results, "libraries/millet")
+        return self.run_program(
+            ROOT / "scripts/library", "add", "libraries/millet/plan.toml", results, "libraries/millet"
+        )
 
     def finish(self, results, runs, shift=0.0):
         script = hashlib.sha256((self.folder / "cases/drum/in.drum").read_bytes()).hexdigest()

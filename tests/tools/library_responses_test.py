@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""gap/responses through its command line, on a library whose responses are known by hand, and on those of the repository."""
+"""scripts/library responses through its command line, on a library whose responses are known by hand, and on those of the repository."""
 import math
 import os
 import pathlib
@@ -10,7 +10,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 
 def responses(*words):
-    return subprocess.run([ROOT / "gap/responses", *map(str, words)], capture_output=True, text=True)
+    return subprocess.run([ROOT / "scripts/library", "responses", *map(str, words)], capture_output=True, text=True)
 
 
 with tempfile.TemporaryDirectory(prefix="vielto-responses-") as name:
@@ -103,7 +103,9 @@ with tempfile.TemporaryDirectory(prefix="vielto-responses-") as name:
     # a reader that closes at once: no traceback
     end, start = os.pipe()
     os.close(end)
-    cut = subprocess.run([ROOT / "gap/responses", str(folder)], stdout=start, stderr=subprocess.PIPE, text=True)
+    cut = subprocess.run(
+        [ROOT / "scripts/library", "responses", str(folder)], stdout=start, stderr=subprocess.PIPE, text=True
+    )
     os.close(start)
     assert cut.stderr == "", cut.stderr
     picture = folder / "p.svg"

@@ -1,9 +1,8 @@
-#!/usr/bin/python3
 # SPDX-License-Identifier: GPL-2.0-or-later
 """How strongly each effect and each member of the family acts on what is observed, from a response library's own runs.
 
-  gap/responses libraries/millet
-  gap/responses libraries/wheat --observable angle --picture libraries/wheat/responses.svg
+  scripts/library responses libraries/millet
+  scripts/library responses libraries/wheat --observable angle --picture libraries/wheat/responses.svg
 
 What is observed with the effect, the mean over its runs, over the mean of the baseline's seeds under the same conditions,
 less 1, in %. Power is loaded less idle. Standard uncertainty: of a run, the greater of the scatter between seeds and the
@@ -13,37 +12,67 @@ scatter taken out, and the band of two of them to either side (95 % of a normal 
 The picture (python3-matplotlib) has a panel for each effect, a line for each condition.
 --pairs: runs with two effects at once (tests called SOME_EFFECT1_and_EFFECT2_sN), beside what the two make if they multiply.
 """
-import argparse
-import csv
 import math
 import pathlib
 import re
-import signal
-import sys
 import tomllib
 from collections import defaultdict
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
-from tools import pictures  # noqa: E402
-from tools.errors import BadInput  # noqa: E402
+from tools import pictures, tables
+from tools.errors import BadInput
 
 CONDITIONS = ("speed", "fill", "moisture", "normal_stress", "shear_velocity", "tilt")
 
 
-def read(path):
-    try:
-        with open(path, newline="") as file:
-            return list(csv.DictReader(file))
-    except OSError as e:
-        raise BadInput(f"{e.filename}: {e.strerror}; name a response library")
+def add_options(parser):
+    parser.add_argument("library", type=pathlib.Path)
+    parser.add_argument("--observable", default="power", help="power, angle, torque_ripple, ...")
+    parser.add_argument("--pool", action="store_true", help="one scatter for all conditions")
+    pictures.add_option(parser)
+    parser.add_argument(
+        "--pairs", type=pathlib.Path, metavar="TABLE", help="observations of runs with two effects: do they multiply?"
+    )
+
+
+def work(options):
+    design = {row["test"]: row for row in read(options.library / "design.csv", ["test", "effect", "strength"])}
+    rows = read_observations(options.library / "observations.csv")
+    found = observed(rows, options.observable)
+    if not found:
+        known = sorted({row["observable"] for row in rows})
+        raise BadInput(
+            f"{options.library}: there is no {options.observable} in it; --observable takes {', '.join(known)}"
+        )
+    scatter, table, family, centre = responses(design, found, options.pool)
+    pairs = []
+    if options.pairs:
+        of_pairs = {}
+        for test, (value, u, at) in observed(read_observations(options.pairs), options.observable).items():
+            if at not in centre:
+                raise BadInput(f"{options.pairs}: test {test}: the library has no baseline at {text(at)}; run it there")
+            of_pairs[test] = value / centre[at], u / centre[at], at
+        pairs = interactions(of_pairs, table, scatter)
+    if options.picture:
+        draw(options.picture, table, options.observable, options.library.resolve().parent / "effects")
+    tell(options.observable, scatter, family, table)
+    if pairs:
+        tell_pairs(pairs)
+
+
+def read(path, columns):
+    return tables.read(path, columns, "name a response library")
+
+
+def read_observations(path):
+    return read(path, ["test", "observable", "value", "u", *CONDITIONS])
 
 
 def observed(rows, observable):
     """{test: (value, u, conditions)} of one observable; power also as loaded less idle."""
     seen = defaultdict(dict)
     for row in rows:
-        at = tuple((c, float(row[c])) for c in CONDITIONS if row[c])
-        seen[row["test"]][row["observable"]] = (float(row["value"]), float(row["u"]), at)
+        at = tuple((c, row.number(c)) for c in CONDITIONS if row[c])
+        seen[row["test"]][row["observable"]] = (row.number("value"), row.number("u"), at)
     found = {}
     for test, of in seen.items():
         if observable == "power" and {"power_loaded", "power_idle"} <= set(of):
@@ -196,39 +225,7 @@ def draw(path, table, observable, effect_files):
     pictures.save(figure, path)
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("library", type=pathlib.Path)
-    parser.add_argument("--observable", default="power", help="power, angle, torque_ripple, ...")
-    parser.add_argument("--pool", action="store_true", help="one scatter for all conditions")
-    parser.add_argument("--picture", type=pathlib.Path, metavar="FILE", help=".svg or .png to draw")
-    parser.add_argument(
-        "--pairs", type=pathlib.Path, metavar="TABLE", help="observations of runs with two effects: do they multiply?"
-    )
-    options = parser.parse_args()
-    try:
-        design = {row["test"]: row for row in read(options.library / "design.csv")}
-        rows = read(options.library / "observations.csv")
-        found = observed(rows, options.observable)
-        if not found:
-            known = sorted({row["observable"] for row in rows})
-            raise BadInput(
-                f"{options.library}: there is no {options.observable} in it; --observable takes {', '.join(known)}"
-            )
-        scatter, table, family, centre = responses(design, found, options.pool)
-        together = []
-        if options.pairs:
-            of_pairs = {}
-            for test, (value, u, at) in observed(read(options.pairs), options.observable).items():
-                if at not in centre:
-                    raise BadInput(f"{options.pairs}: test {test}: the library has no baseline at {text(at)}")
-                of_pairs[test] = value / centre[at], u / centre[at], at
-            together = interactions(of_pairs, table, scatter)
-        if options.picture:
-            draw(options.picture, table, options.observable, options.library.resolve().parent / "effects")
-    except (BadInput, ImportError, OSError) as e:
-        print(f"responses: {e}", file=sys.stderr)
-        return 2
+def tell(observable, scatter, family, table):
     for at, sd in sorted(scatter.items()):
         print(f"one seed scatters by {100 * sd:.1f} % at {text(at)}")
     for at, (n, middle, sd) in sorted(family.items()):
@@ -236,26 +233,22 @@ def main():
             f"family of the calibration ({n} members): {100 * middle:+.0f} %, "
             f"95 % band {100 * (middle - 2 * sd):+.0f} … {100 * (middle + 2 * sd):+.0f} % at {text(at)}"
         )
-    print(f"\n| what | strength | conditions | {options.observable} over the baseline's less 1 |\n|---|---|---|---|")
+    print(f"\n| what | strength | conditions | {observable} over the baseline's less 1 |\n|---|---|---|---|")
     for what, strength, at, change, u in table:
         print(f"| {what} | {strength:g} | {text(at)} | {100 * change:+.0f} ± {100 * u:.0f} % |")
-    if together:
-        # an interaction of a part k of the product of the responses, a standard deviation (diagnosis.toml, interaction)
-        chi2 = {k: sum(beyond**2 / (u**2 + (k * both) ** 2) for *_, both, beyond, u in together) for k in (0, 0.5)}
-        print(
-            f"\ndo effects multiply: chi2 of {len(together)} pairs {chi2[0]:.1f}, {chi2[0.5]:.1f} with an interaction of half the product"
-        )
-        print(
-            "\n| two effects | conditions | together | if they multiply | product of the responses | over that |\n|---|---|---|---|---|---|"
-        )
-    for pair, at, change, u, product, both, beyond, u_beyond in together:
+
+
+def tell_pairs(pairs):
+    # an interaction of a part k of the product of the responses, a standard deviation (diagnosis.toml, interaction)
+    chi2 = {k: sum(beyond**2 / (u**2 + (k * both) ** 2) for *_, both, beyond, u in pairs) for k in (0, 0.5)}
+    print(
+        f"\ndo effects multiply: chi2 of {len(pairs)} pairs {chi2[0]:.1f}, "
+        f"{chi2[0.5]:.1f} with an interaction of half the product"
+    )
+    print("\n| two effects | conditions | together | if they multiply | product of the responses | over that |")
+    print("|---|---|---|---|---|---|")
+    for pair, at, change, u, product, both, beyond, u_beyond in pairs:
         print(
             f"| {pair} | {text(at)} | {100 * change:+.0f} ± {100 * u:.0f} % | {100 * product:+.0f} % "
             f"| {100 * both:+.1f} % | {100 * beyond:+.0f} ± {100 * u_beyond:.0f} % |"
         )
-    return 0
-
-
-if __name__ == "__main__":
-    signal.signal(signal.SIGPIPE, signal.SIG_DFL)  # a reader that has seen enough (| head) is no fault
-    sys.exit(main())

@@ -1,20 +1,21 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""gap/blind/verdicts through its command line: cases counted by hand, and missing answers."""
+"""scripts/blind count-answers through its command line: cases counted by hand, and missing answers."""
 import json
 import pathlib
 import subprocess
 import tempfile
 
-PROGRAM = pathlib.Path(__file__).resolve().parents[2] / "gap/blind/verdicts"
+PROGRAM = pathlib.Path(__file__).resolve().parents[2] / "scripts/blind"
 
 with tempfile.TemporaryDirectory(prefix="vielto-verdicts-") as name:
-    truths, answers = pathlib.Path(name) / "truth", pathlib.Path(name) / "answers"
+    truths, answers, table = (pathlib.Path(name) / n for n in ("truth", "answers", "verdicts.csv"))
     truths.mkdir()
 
     def told():
-        return subprocess.run([PROGRAM, truths, answers], capture_output=True, text=True)
+        words = ["count-answers", truths, answers, "--out", table]
+        return subprocess.run([PROGRAM, *words], capture_output=True, text=True)
 
-    assert told().returncode == 1 and "holds no truth" in told().stderr, told()
+    assert told().returncode == 2 and "holds no truth" in told().stderr, told()
     for case, effects, verdict, named, group in (
         ("0001", [], "no_gap", [], []),
         ("0002", ["b"], "named", ["b"], []),
@@ -32,7 +33,10 @@ with tempfile.TemporaryDirectory(prefix="vielto-verdicts-") as name:
             missing = told()
         (answers / case).mkdir(parents=True)
         (answers / case / "diagnosis.json").write_text(json.dumps(dict(verdict=verdict, named=named, group=group)))
-    assert missing.returncode == 1 and "0004/diagnosis.json" in missing.stderr and missing.stdout == "", missing
-    assert told().stdout == (
+    assert (
+        missing.returncode == 2 and "0004/diagnosis.json" in missing.stderr and missing.stderr.count("\n") == 1
+    ), missing
+    assert not table.exists()
+    assert told().returncode == 0 and table.read_text() == (
         "kind,effect,strength,answer,cases\nknown,b,strong,ambiguous b c,2\nknown,b,strong,named b,1\nnone,,,no_gap,1\n"
     ), told()

@@ -1,16 +1,15 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""gap/blind/to-confirm: strong cases of one known effect whose answer is a gap."""
+"""scripts/blind list-strong: strong cases of one known effect whose answer is a gap."""
 import json
 import pathlib
 import subprocess
-import sys
 import tempfile
 import unittest
 
-PROGRAM = pathlib.Path(__file__).resolve().parents[2] / "gap" / "blind" / "to-confirm"
+PROGRAM = pathlib.Path(__file__).resolve().parents[2] / "scripts/blind"
 
 
-class ToConfirm(unittest.TestCase):
+class ListStrong(unittest.TestCase):
     def setUp(self):
         self.folder = tempfile.TemporaryDirectory()
         self.root = pathlib.Path(self.folder.name)
@@ -31,7 +30,7 @@ class ToConfirm(unittest.TestCase):
 
     def run_it(self):
         return subprocess.run(
-            [sys.executable, PROGRAM, self.root / "truth", self.root / "answers"], capture_output=True, text=True
+            [PROGRAM, "list-strong", self.root / "truth", self.root / "answers"], capture_output=True, text=True
         )
 
     def test_goes_by_the_answers_verdict_alone(self):
@@ -49,7 +48,7 @@ class ToConfirm(unittest.TestCase):
         done = self.run_it()
         self.assertNotEqual(done.returncode, 0)
         self.assertEqual(done.stdout, "")
-        self.assertRegex(done.stderr, r"^to-confirm: .*1/diagnosis.json: .*diagnose the cases first.*\n$")
+        self.assertRegex(done.stderr, r"^blind list-strong: .*1/diagnosis.json: .*diagnose the cases first.*\n$")
 
 
 unittest.main()

@@ -1,0 +1,15 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Names the withheld cases that have something to simulate: strong ones with one known effect, unless the answer is "no gap".
+
+  scripts/blind list-strong FOLDER/check/truth FOLDER/answers
+
+The answer is its verdict; what variants of its settings would have said ("sensitivity") does not count.
+"""
+from tools.blind import cases
+
+add_options = cases.add_options
+
+
+def work(options):
+    strong = [t["case"] for t in cases.truths(options.truths) if t["kind"] == "known" and t["level"] == "strong"]
+    print(*[case for case in strong if cases.answer(options.answers, case)["verdict"] != "no_gap"])

@@ -1,0 +1,11 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Response libraries: runs added to one that was made earlier, and what its effects do.
+
+A library is a folder that `vielto gap collect` makes of a campaign's runs (doc on formats: gap/README.md).
+"""
+from tools import command_line
+from tools.library import add, responses
+
+
+def main():
+    return command_line.run_subcommands("library", __doc__, {"add": add, "responses": responses})
