@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Response libraries: runs added to one that was made earlier, and what its effects do.
+"""Response libraries: runs added to one that was made earlier, what its effects do, and which tests show them.
 
-A library is a folder that `vielto gap collect` makes of a campaign's runs (doc on formats: gap/README.md).
+A library is a folder that `vielto gap collect` makes of a campaign's runs (gap/README.md says what is in it).
 """
 from tools import command_line
-from tools.library import add, responses
+from tools.library import add, detectability, responses
+
+COMMANDS = {"add": add, "responses": responses, "detectability": detectability}
 
 
 def main():
-    return command_line.run_subcommands("library", __doc__, {"add": add, "responses": responses})
+    return command_line.run_subcommands("library", __doc__, COMMANDS)
