@@ -33,8 +33,8 @@ Middle middle(const Table& grains) {
 
 TEST(DrumRun, TurnsABedWithAnAngle) {
   Rig rig("drum");
-  rig.must("run", coarse_drum);
-  const Table first = rig.csv("run/bed_1.csv"), last = rig.csv("run/bed_4.csv");
+  rig.must("run", coarse_drum, "-var frames 18 -var frameAngle 6 -var rollingResistance 0.001 ");
+  const Table first = rig.csv("run/bed_1.csv"), last = rig.csv("run/bed_18.csv");
   // 780 kg/m3 in half of the drum, of grains with the three sizes' mean mass; the chords cut off 0.07 % of the circle
   const double d = 0.008, s = 0.05 * std::sqrt(3);
   const double volume = pi / 6 * d * d * d * (2.0 / 3 + (std::pow(1 - s, 3) + std::pow(1 + s, 3)) / 6);
@@ -49,7 +49,16 @@ TEST(DrumRun, TurnsABedWithAnAngle) {
   const auto json = nlohmann::json::parse(rig.read("run/post/drum.json"));
   EXPECT_GT(json["angle_deg"], 10);
   EXPECT_LT(json["angle_deg"], 60);
-  EXPECT_NE(rig.read("run/post/observations.csv").find("coarse,fit,drum,angle,"), std::string::npos);
+  const std::string rows = rig.read("run/post/observations.csv");
+  EXPECT_NE(rows.find("coarse,fit,drum,angle,"), std::string::npos);
+  // the surface is carried up at negative x and falls along x: positive slopes
+  for (const std::string slope : {"angle_mid", "angle_upper", "angle_lower"}) {
+    EXPECT_NE(rows.find("coarse,fit,drum," + slope + ","), std::string::npos) << rows;
+    EXPECT_GT(json[slope + "_deg"], 5) << slope;
+    EXPECT_LT(json[slope + "_deg"], 70) << slope;
+  }
+  const Table surface = rig.csv("run/post/surface.csv");
+  EXPECT_GT(surface.at(10, "y_m"), surface.at(surface.rows.size() - 10, "y_m"));
 }
 
 // The tilt turns gravity: the bed rests on the end face x = 0.
