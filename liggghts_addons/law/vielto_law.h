@@ -28,6 +28,8 @@
                v = v_1 - v_2, v_n = v.n (> 0 when the bodies part), v_s includes the spins.
                u_n > 0 is overlap. F_n in the caps is spring plus dashpot, never cohesion.
    Units       SI, angles in radians.
+   Numbers     T is double, or a type that holds the same number of several contacts side by side (this package's
+               engine/packed_number.h): the formulas are stated once. Mask<T> is what a comparison of two T gives.
    Limits      small overlap (u_n << R); angular momentum is conserved to u_n/(R_1 + R_2) because the
                lever arms are the radii, as printed.
 */
@@ -36,6 +38,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 // These small functions stand in the innermost loop: a call costs more than the work of most of them. What runs
 // seldom stays out of that loop. With sanitizers in them the inlined ones would take a compiler minutes.
@@ -49,16 +52,52 @@
 
 namespace vielto {
 
-struct Vec {
-  double x, y, z;
-};
+// What the formulas ask of a number beside its arithmetic; sqrt, fabs and copysign are found beside the type.
+using std::copysign;
+using std::fabs;
+using std::sqrt;
 
-VIELTO_INLINE Vec operator+(const Vec& a, const Vec& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-VIELTO_INLINE Vec operator-(const Vec& a, const Vec& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-VIELTO_INLINE Vec operator*(double s, const Vec& a) { return {s * a.x, s * a.y, s * a.z}; }
-VIELTO_INLINE double dot(const Vec& a, const Vec& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-VIELTO_INLINE Vec cross(const Vec& a, const Vec& b) {
+template <class T>
+using Mask = decltype(std::declval<T>() < std::declval<T>());
+
+VIELTO_INLINE bool any(bool condition) { return condition; }
+VIELTO_INLINE bool all(bool condition) { return condition; }
+VIELTO_INLINE double choose(bool condition, double a, double b) { return condition ? a : b; }
+
+template <class T>
+struct VecOf {
+  typedef T Number;
+  T x, y, z;
+};
+typedef VecOf<double> Vec;
+
+// T, deduced from the other arguments.
+template <class T>
+using Num = typename VecOf<T>::Number;
+
+template <class T>
+VIELTO_INLINE VecOf<T> operator+(const VecOf<T>& a, const VecOf<T>& b) {
+  return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+template <class T>
+VIELTO_INLINE VecOf<T> operator-(const VecOf<T>& a, const VecOf<T>& b) {
+  return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+template <class T>
+VIELTO_INLINE VecOf<T> operator*(const Num<T>& s, const VecOf<T>& a) {
+  return {s * a.x, s * a.y, s * a.z};
+}
+template <class T>
+VIELTO_INLINE T dot(const VecOf<T>& a, const VecOf<T>& b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+template <class T>
+VIELTO_INLINE VecOf<T> cross(const VecOf<T>& a, const VecOf<T>& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+template <class T>
+VIELTO_INLINE VecOf<T> choose(const Mask<T>& condition, const VecOf<T>& a, const VecOf<T>& b) {
+  return {choose(condition, a.x, b.x), choose(condition, a.y, b.y), choose(condition, a.z, b.z)};
 }
 
 // What one body brings into a contact.
@@ -75,16 +114,18 @@ struct Material {
 };
 
 // Two materials after the mixing rules; made once per pair of types.
-struct Pair {
-  double E1, E2;
-  double nu1, nu2;
-  bool equalRatio;   // nu1 == nu2, so that k_s = nu k_n saves a division and a root
-  double sqrtRatio;  // sqrt(nu), where equalRatio
-  double betaN, betaS;
-  double tanPhi;
-  double betaKr, betaKtw;
-  double muR, muTwTanPhi;
+template <class T>
+struct PairOf {
+  T E1, E2;
+  T nu1, nu2;
+  Mask<T> equalRatio;  // nu1 == nu2, so that k_s = nu k_n saves a division and a root
+  T sqrtRatio;         // sqrt(nu), where equalRatio
+  T betaN, betaS;
+  T tanPhi;
+  T betaKr, betaKtw;
+  T muR, muTwTanPhi;
 };
+typedef PairOf<double> Pair;
 
 inline double harmonic_mean_or_zero(double a, double b) { return (a > 0 && b > 0) ? 2 * a * b / (a + b) : 0.0; }
 
@@ -107,87 +148,109 @@ inline Pair mix(const Material& a, const Material& b) {
 }
 
 // Stiffnesses and dashpot coefficients of one contact: k in N/m, gamma in N s/m.
-struct Stiffness {
-  double kn, ks;
-  double gammaN, gammaS;
+template <class T>
+struct StiffnessOf {
+  T kn, ks;
+  T gammaN, gammaS;
 };
+typedef StiffnessOf<double> Stiffness;
 
-VIELTO_INLINE Stiffness stiffness(const Pair& p, double R1, double R2, double mEff) {
-  const double a1 = p.E1 * R1;
-  const double a2 = p.E2 * R2;
-  Stiffness s;
+template <class T>
+VIELTO_INLINE StiffnessOf<T> stiffness(const PairOf<T>& p, const Num<T>& R1, const Num<T>& R2, const Num<T>& mEff) {
+  const T a1 = p.E1 * R1;
+  const T a2 = p.E2 * R2;
+  StiffnessOf<T> s;
   s.kn = 4 * a1 * a2 / (a1 + a2);
-  const double rootN = std::sqrt(s.kn * mEff);
+  const T rootN = sqrt(s.kn * mEff);
   s.gammaN = 2 * p.betaN * rootN;
-  if (p.equalRatio) {
-    s.ks = p.nu1 * s.kn;
-    s.gammaS = 2 * p.betaS * p.sqrtRatio * rootN;
-  } else {
-    const double b1 = a1 * p.nu1;
-    const double b2 = a2 * p.nu2;
-    s.ks = 4 * b1 * b2 / (b1 + b2);
-    s.gammaS = 2 * p.betaS * std::sqrt(s.ks * mEff);
+  s.ks = p.nu1 * s.kn;
+  s.gammaS = 2 * p.betaS * p.sqrtRatio * rootN;
+  if (!all(p.equalRatio)) {
+    const T b1 = a1 * p.nu1;
+    const T b2 = a2 * p.nu2;
+    s.ks = choose(p.equalRatio, s.ks, 4 * b1 * b2 / (b1 + b2));
+    s.gammaS = choose(p.equalRatio, s.gammaS, 2 * p.betaS * sqrt(s.ks * mEff));
   }
   return s;
 }
 
 // F_n, N; c_n is the factor before k_n u_n (4 as printed, 1 makes beta_n the damping ratio).
-VIELTO_INLINE double normal_force(double cn, const Stiffness& s, double overlap, double vn) {
+template <class T>
+VIELTO_INLINE T normal_force(double cn, const StiffnessOf<T>& s, const Num<T>& overlap, const Num<T>& vn) {
   return cn * s.kn * overlap - s.gammaN * vn;
 }
 
 /* Carries a stored vector, perpendicular to the normal of the last step, over to the normal n of this one:
    laid into the new tangent plane at unchanged length, and turned about n by the bodies' mean spin angle.
    To second order in the turn of a step this is the rotation of the contact frame. */
-VIELTO_INLINE Vec turned_with_contact(const Vec& stored, const Vec& n, double spinAngle) {
-  const double along = dot(stored, n);
-  Vec t = stored - along * n;
-  const double before = dot(stored, stored);
-  if (before > 0) {
-    const double shortening = along * along / before;  // 1 - |t|^2/|stored|^2
-    t = (shortening < 1e-4 ? 1 + 0.5 * shortening : 1 / std::sqrt(std::max(1 - shortening, 1e-12))) * t;
+template <class T = double>
+VIELTO_INLINE VecOf<T> turned_with_contact(const VecOf<T>& stored, const VecOf<T>& n, const Num<T>& spinAngle) {
+  const T along = dot(stored, n);
+  VecOf<T> t = stored - along * n;
+  const T before = dot(stored, stored);
+  const Mask<T> loaded = before > 0;
+  if (any(loaded)) {
+    const T shortening = along * along / before;  // 1 - |t|^2/|stored|^2
+    T factor = 1 + 0.5 * shortening;
+    const Mask<T> far = shortening >= 1e-4;
+    if (any(far)) {
+      const T left = 1 - shortening;
+      factor = choose(far, 1 / sqrt(choose(left > 1e-12, left, T(1e-12))), factor);
+    }
+    t = choose(loaded, factor * t, t);
   }
   return t + spinAngle * cross(n, t);
 }
 
-// Shortens v to at most `limit`. Returns true if it had to.
-VIELTO_INLINE bool cap(Vec& v, double limit) {
-  const double square = dot(v, v);
-  if (square <= limit * limit) return false;
-  v = (limit / std::sqrt(square)) * v;
-  return true;
+// Shortens v to at most `limit`. Tells where it had to.
+template <class T>
+VIELTO_INLINE Mask<T> cap(VecOf<T>& v, const Num<T>& limit) {
+  const T square = dot(v, v);
+  const Mask<T> over = square > limit * limit;
+  if (any(over)) v = choose(over, (limit / sqrt(square)) * v, v);
+  return over;
 }
 
 // Spring part of the tangential force after this step; `stored` already turned. `sliding` tells the cap acted.
-VIELTO_INLINE Vec tangential_spring(const Stiffness& s, const Vec& stored, const Vec& vs, double dt,
-                                    double slidingLimit, bool& sliding) {
-  Vec f = stored - (s.ks * dt) * vs;
+template <class T>
+VIELTO_INLINE VecOf<T> tangential_spring(const StiffnessOf<T>& s, const VecOf<T>& stored, const VecOf<T>& vs, double dt,
+                                         const Num<T>& slidingLimit, Mask<T>& sliding) {
+  VecOf<T> f = stored - (s.ks * dt) * vs;
   sliding = cap(f, slidingLimit);
   return f;
 }
 
 // Length in the moments' caps: 2 R_1 R_2/(R_1 + R_2), m.
-VIELTO_INLINE double rolling_length(double R1, double R2) { return 2 * R1 * R2 / (R1 + R2); }
+template <class T>
+VIELTO_INLINE T rolling_length(const T& R1, const T& R2) {
+  return 2 * R1 * R2 / (R1 + R2);
+}
 
-VIELTO_INLINE double rolling_stiffness(const Pair& p, double kn, double R1, double R2) {
+template <class T>
+VIELTO_INLINE T rolling_stiffness(const PairOf<T>& p, const Num<T>& kn, const Num<T>& R1, const Num<T>& R2) {
   return p.betaKr * kn * R1 * R2;
 }
-VIELTO_INLINE double twisting_stiffness(const Pair& p, double ks, double R1, double R2) {
+template <class T>
+VIELTO_INLINE T twisting_stiffness(const PairOf<T>& p, const Num<T>& ks, const Num<T>& R1, const Num<T>& R2) {
   return p.betaKtw * ks * R1 * R2;
 }
 
 // Spring part of the rolling moment after this step; `wr` is the relative spin less its part along n.
-VIELTO_INLINE Vec rolling_spring(double kr, const Vec& stored, const Vec& wr, double dt, double limit, bool& rolling) {
-  Vec m = stored - (kr * dt) * wr;
+template <class T>
+VIELTO_INLINE VecOf<T> rolling_spring(const T& kr, const VecOf<T>& stored, const VecOf<T>& wr, double dt,
+                                      const Num<T>& limit, Mask<T>& rolling) {
+  VecOf<T> m = stored - (kr * dt) * wr;
   rolling = cap(m, limit);
   return m;
 }
 
 // Spring part of the twisting moment along n after this step; wtw is the relative spin along n.
-VIELTO_INLINE double twisting_spring(double ktw, double stored, double wtw, double dt, double limit, bool& twisting) {
-  const double m = stored - ktw * dt * wtw;
-  twisting = std::fabs(m) > limit;
-  return twisting ? std::copysign(limit, m) : m;
+template <class T>
+VIELTO_INLINE T twisting_spring(const T& ktw, const Num<T>& stored, const Num<T>& wtw, double dt, const Num<T>& limit,
+                                Mask<T>& twisting) {
+  const T m = stored - ktw * dt * wtw;
+  twisting = fabs(m) > limit;
+  return choose(twisting, copysign(limit, m), m);
 }
 
 /* Work of a spring with a cap in one step, J: what went in, less what is stored. The force is the mean of old
