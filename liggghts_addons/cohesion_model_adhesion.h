@@ -26,6 +26,7 @@ COHESION_MODEL(COHESION_ADHESION, adhesion, 20)
 #include "contact_models.h"
 #include "global_properties.h"
 #include "pointers.h"
+#include "vielto_state.h"
 
 namespace vielto {
 
@@ -58,6 +59,8 @@ class CohesionModel<COHESION_ADHESION> : public CohesionModelBase {
     registry.registerProperty("adhesionStrength", &vielto::create_adhesion_strength);
     registry.connect("adhesionStrength", strength_, "cohesion_model adhesion");
   }
+
+  void describe(vielto::LawSettings& s) const { s.adhesion = vielto::adhesion_force(strength_, 1, 1); }
 
   void surfacesIntersect(SurfacesIntersectData& sidata, ForceData& i_forces, ForceData& j_forces) {
     if (sidata.contact_flags) *sidata.contact_flags |= CONTACT_COHESION_MODEL;

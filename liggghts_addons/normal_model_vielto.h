@@ -67,6 +67,13 @@ class NormalModel<VIELTO> : public NormalModelBase {
     neighbor->register_contact_dist_factor(1.01);
   }
 
+  void describe(vielto::LawSettings& s) const {
+    s.springFactor = springFactor_;
+    s.wallRadiusFactor = wallRadiusFactor_;
+    s.limitForce = limitForce_;
+  }
+  const vielto::PairTable& pairs() const { return pairs_; }
+
   // the normal spring is linear
   double stressStrainExponent() { return 1.; }
 
@@ -109,7 +116,6 @@ class NormalModel<VIELTO> : public NormalModelBase {
   void beginPass(SurfacesIntersectData&, ForceData&, ForceData&) {}
   void endPass(SurfacesIntersectData&, ForceData&, ForceData&) {}
 
- private:
   // Overlap limit, overlap statistics and the normal part of the energy accounts.
   VIELTO_NOINLINE void watch(const SurfacesIntersectData& sidata, double diameter) {
     overlaps_.note(lmp, sidata, diameter);
@@ -121,6 +127,7 @@ class NormalModel<VIELTO> : public NormalModelBase {
     }
   }
 
+ private:
   double springFactor_, wallRadiusFactor_;
   vielto::OverlapWatch overlaps_;
   bool limitForce_;

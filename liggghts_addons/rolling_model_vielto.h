@@ -56,6 +56,13 @@ class RollingModel<ROLLING_VIELTO> : public RollingModelBase {
 
   void connectToProperties(PropertyRegistry&) { pairs_.read(lmp); }
 
+  void describe(vielto::LawSettings& s) const {
+    s.rolling = true;
+    s.rollingDashpot = rollingDashpot_;
+    s.wallRolling = wallRolling_;
+    s.rollingAt = offset_;
+  }
+
   VIELTO_INLINE void surfacesIntersect(SurfacesIntersectData& sidata, ForceData& i_forces, ForceData& j_forces) {
     using vielto::Vec;
     if (sidata.contact_flags) *sidata.contact_flags |= CONTACT_ROLLING_MODEL;

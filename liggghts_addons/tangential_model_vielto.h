@@ -44,6 +44,12 @@ class TangentialModel<TANGENTIAL_VIELTO> : public TangentialModelBase {
 
   void connectToProperties(PropertyRegistry&) { pairs_.read(lmp); }
 
+  void describe(vielto::LawSettings& s) const {
+    s.slidingDashpot = slidingDashpot_;
+    s.radiusLever = leverIsRadius_;
+    s.slidingAt = offset_;
+  }
+
   VIELTO_INLINE void surfacesIntersect(const SurfacesIntersectData& sidata, ForceData& i_forces, ForceData& j_forces) {
     using vielto::Vec;
     if (sidata.contact_flags) *sidata.contact_flags |= CONTACT_TANGENTIAL_MODEL;

@@ -132,7 +132,9 @@ class PairTable {
     for (int i = 1; i < n_; i++)
       for (int j = 1; j < n_; j++) pairs_[i * n_ + j] = mix(materials[i], materials[j]);
   }
-  const Pair& operator()(int itype, int jtype) const { return pairs_[itype * n_ + jtype]; }
+  const Pair& operator()(int itype, int jtype) const { return pairs_[place(itype, jtype)]; }
+  int place(int itype, int jtype) const { return itype * n_ + jtype; }
+  const Pair* all() const { return pairs_.data(); }
   bool empty() const { return pairs_.empty(); }
 
  private:

@@ -31,6 +31,14 @@ struct Tally {
   double twisting;
 };
 
+// What the models of one pair_style or wall were set to; each adds its own (`describe`).
+struct LawSettings {
+  double springFactor, wallRadiusFactor, wallRolling;
+  double adhesion;  // over both diameters, Pa; 0: none
+  bool limitForce, slidingDashpot, radiusLever, rolling, rollingDashpot;
+  int slidingAt, rollingAt;  // places in the contact's history
+};
+
 inline Settings& settings() {
   static Settings s = {4.0, 2.0, 0, 0.0};
   return s;

@@ -3,10 +3,12 @@
 
    Purpose   The same forces, bit for bit, as LIGGGHTS' PairStyles::Granular, in less time. That loop prepares every
              neighbour as if it were a contact and resets the history of all that are not, which is half of the pair
-             time of a loose bed; here a neighbour out of contact costs its distance and a look at its flag. One
-   contact's data live in registers, because nothing takes their address. Falls back to LIGGGHTS' loop where a feature
-   is on that this one leaves out: virial, compute pair/gran/local, stored contact forces, multicontact radii, summed
-   normal forces, predefined insertion, non-spherical grains. For       cohesion models without force at a distance. */
+             time of a loose bed; here a neighbour out of contact costs its distance and a look at its flag. Contacts of
+   ViElTo are evaluated several at once (packed_law.h); those of other laws one by one, their data in registers because
+   nothing takes their address, and so are ViElTo's in a step of energy accounts. Falls back to LIGGGHTS' loop where a
+   feature is on that this one leaves out: virial, compute pair/gran/local, stored contact forces, multicontact radii,
+   summed normal forces, predefined insertion, non-spherical grains. For       cohesion models without force at a
+   distance. */
 #ifndef VIELTO_PAIR_H
 #define VIELTO_PAIR_H
 
@@ -18,6 +20,8 @@
 // clang-format off
 #include "fix_insert_stream.h"
 #include "pair_gran_base.h"
+#include "engine/packed_law.h"
+#include "engine/packed_models.h"
 #include "engine/private_access.h"
 // clang-format on
 
@@ -29,12 +33,6 @@
 #endif
 
 namespace vielto {
-
-template <class Style>
-struct ModelOfPair {
-  typedef LIGGGHTS::ContactModels::ContactModel<Style> Model;
-  typedef Model LIGGGHTS::PairStyles::Granular<Model>::*type;
-};
 
 /* Which neighbours of a list may touch: those nearer than a margin when all were looked at last, for as long as no
    grain has gone, or grown, half of it since. The margin follows the grains' speed so that a look at all comes every 16
@@ -97,10 +95,14 @@ template <class Style>
 class FastPair : public LIGGGHTS::PairStyles::Granular<LIGGGHTS::ContactModels::ContactModel<Style>> {
   typedef LIGGGHTS::ContactModels::ContactModel<Style> Model;
   typedef LIGGGHTS::PairStyles::Granular<Model> General;
+  typedef PackedModels<Style> Models;
 
  public:
   FastPair(LAMMPS_NS::LAMMPS* program, LAMMPS_NS::PairGran* parent, int64_t hash)
-      : General(program, parent, hash), program_(program), model_(this->*Handed<ModelOfPair<Style>>::pointer) {}
+      : General(program, parent, hash),
+        program_(program),
+        model_(this->*Handed<ModelOfPair<Style>>::pointer),
+        packed_(Models::packs ? packed_law(program) : NULL) {}
 
   void compute_force(LAMMPS_NS::PairGran* pg, int eflag, int vflag, int addflag) override {
     const bool plain = !eflag && !vflag && !(pg->cpl() && addflag) && !pg->storeContactForces() &&
@@ -110,13 +112,23 @@ class FastPair : public LIGGGHTS::PairStyles::Granular<LIGGGHTS::ContactModels::
                        program_->modify->n_fixes_style("insert/stream/predefined") == 0;
     if (!plain) return General::compute_force(pg, eflag, vflag, addflag);
     pg->evflag = pg->vflag_fdotr = 0;
-    if (pg->computeflag() && pg->shearupdate())
+    const bool step = pg->computeflag() && pg->shearupdate();
+    if constexpr (Models::packs)
+      if (step && packed_ && !tally().energy) return packed_loop(pg);
+    if (step)
       loop<true>(pg);
     else
       loop<false>(pg);
   }
 
  private:
+  struct Touch {
+    int i, j;
+    double dx, dy, dz, square;
+    int* flags;
+    double* history;
+  };
+
   // Step: forces are wanted and the history goes on, as in every step of a run.
   template <bool Step>
   VIELTO_FLATTEN void loop(LAMMPS_NS::PairGran* pg) {
@@ -188,12 +200,110 @@ class FastPair : public LIGGGHTS::PairStyles::Granular<LIGGGHTS::ContactModels::
     }
   }
 
-  struct Touch {
-    int i, j;
-    double dx, dy, dz, square;
-    int* flags;
-    double* history;
-  };
+  // A step of a run, several contacts at once.
+  void packed_loop(LAMMPS_NS::PairGran* pg) {
+    const std::size_t found = find_touches(pg);
+    PackedStep step = Models::step(model_);
+    step.dt = program_->update->dt;
+    step.frozen = pg->freeze_group_bit() != 0;
+    for (std::size_t first = 0; first < found; first += Block::size) {
+      const int count = static_cast<int>(std::min(found - first, static_cast<std::size_t>(Block::size)));
+      fill(pg, step, &touches_[first], count, found - first);
+      step.greatestOverlap = tally().overlapMax;
+      const bool greater = packed_->pairs(step, block_, count);
+      if (greater || tally().overlaps) watch(&touches_[first], count);
+      add_block(pg, step.settings, &touches_[first], count);
+    }
+  }
+
+  void fill(LAMMPS_NS::PairGran* pg, const PackedStep& step, const Touch* touches, int count, std::size_t left) {
+    LAMMPS_NS::Atom* const grains = program_->atom;
+    const PairTable& table = Models::pairs(model_);
+    const double* const radius = grains->radius;
+    const double* const rmass = grains->rmass;
+    const double* const body = pg->fr_pair() ? pg->mr_pair() : NULL;
+    const LawSettings& s = step.settings;
+    Block& b = block_;
+    b.alike = true;
+    for (int k = 0; k < count; k++) {
+      const Touch& t = touches[k];
+      const Touch& ahead = touches[std::min(static_cast<std::size_t>(k + 8), left - 1)];
+      // LIGGGHTS keeps the three values of a grain after those of the one before
+      for (const double* values : {grains->v[0], grains->omega[0], grains->f[0], grains->torque[0]})
+        __builtin_prefetch(values + 3 * static_cast<std::size_t>(ahead.j));
+      __builtin_prefetch(ahead.history, 1);
+      __builtin_prefetch(ahead.history + 7, 1);
+      const int i = t.i, j = t.j;
+      b.delta[0][k] = t.dx, b.delta[1][k] = t.dy, b.delta[2][k] = t.dz;
+      b.square[k] = t.square;
+      b.R1[k] = radius[i];
+      b.R2[k] = radius[j];
+      b.m1[k] = body && body[i] > 0.0 ? body[i] : rmass[i];
+      b.m2[k] = body && body[j] > 0.0 ? body[j] : rmass[j];
+      b.pair[k] = table.place(grains->type[i], grains->type[j]);
+      b.alike &= b.pair[k] == b.pair[0];
+      const double *vi = grains->v[i], *vj = grains->v[j], *wi = grains->omega[i], *wj = grains->omega[j];
+      for (int d = 0; d < 3; d++) {
+        b.v[d][k] = vi[d] - vj[d];
+        b.spin1[d][k] = wi[d];
+        b.spin2[d][k] = wj[d];
+        b.sliding[d][k] = t.history[s.slidingAt + d];
+      }
+      if (s.rolling) {
+        for (int d = 0; d < 3; d++) b.rolling[d][k] = t.history[s.rollingAt + d];
+        b.twisting[k] = t.history[s.rollingAt + 3];
+      }
+    }
+    if (!step.frozen) return;
+    for (int k = 0; k < count; k++) {
+      b.held1[k] = (grains->mask[touches[k].i] & pg->freeze_group_bit()) != 0;
+      b.held2[k] = (grains->mask[touches[k].j] & pg->freeze_group_bit()) != 0;
+    }
+  }
+
+  // Forces, in the order of the contacts, so that sums are rounded as in the other loop; and the histories.
+  void add_block(LAMMPS_NS::PairGran* pg, const LawSettings& s, const Touch* touches, int count) {
+    LAMMPS_NS::Atom* const grains = program_->atom;
+    const int owned = program_->force->newton_pair ? grains->nlocal + grains->nghost : grains->nlocal;
+    const Block& b = block_;
+    for (int k = 0; k < count; k++) {
+      const Touch& t = touches[k];
+      *t.flags |= Models::flags;
+      for (int d = 0; d < 3; d++) t.history[s.slidingAt + d] = b.sliding[d][k];
+      if (s.rolling) {
+        for (int d = 0; d < 3; d++) t.history[s.rollingAt + d] = b.rolling[d][k];
+        t.history[s.rollingAt + 3] = b.twisting[k];
+      }
+      const double one = pg->relax(t.i);
+      double *f = grains->f[t.i], *torque = grains->torque[t.i];
+      for (int d = 0; d < 3; d++) {
+        f[d] += one * b.force[d][k];
+        torque[d] += one * b.torque1[d][k];
+      }
+      if (t.j >= owned) continue;
+      const double two = pg->relax(t.j);
+      f = grains->f[t.j], torque = grains->torque[t.j];
+      for (int d = 0; d < 3; d++) {
+        f[d] -= two * b.force[d][k];
+        torque[d] += two * b.torque2[d][k];
+      }
+    }
+  }
+
+  // Overlap limit and statistics.
+  __attribute__((noinline)) void watch(const Touch* touches, int count) {
+    LIGGGHTS::ContactModels::SurfacesIntersectData c = LIGGGHTS::ContactModels::SurfacesIntersectData();
+    for (int k = 0; k < count; k++) {
+      c.i = touches[k].i;
+      c.j = touches[k].j;
+      c.radi = block_.R1[k];
+      c.radj = block_.R2[k];
+      c.deltan = block_.overlap[k];
+      c.Fn = block_.normal[k];
+      const double diameter = smaller_diameter(c);
+      if (tally().overlaps || c.deltan > tally().overlapMax * diameter) Models::watch(model_, c, diameter);
+    }
+  }
 
   /* Pairs in contact, in the order of the neighbour list. Apart from the law, so that its long chain of operations is
      not broken off at every neighbour that the processor has wrongly guessed to touch. */
@@ -254,8 +364,10 @@ class FastPair : public LIGGGHTS::PairStyles::Granular<LIGGGHTS::ContactModels::
 
   LAMMPS_NS::LAMMPS* program_;
   Model& model_;
+  const PackedLaw* packed_;  // NULL: contacts one by one
   NearPairs nearPairs_;
   std::vector<Touch> touches_;
+  Block block_;
 };
 
 }  // namespace vielto

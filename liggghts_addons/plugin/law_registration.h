@@ -49,7 +49,7 @@ using Models = GranStyle<Normal, Tangential, Cohesion, Rolling, SURFACE_DEFAULT>
 // A combination whose forces end with the contact takes our pair loop, which needs the model of LIGGGHTS' own.
 #define VIELTO_TOUCHING(NAME, ...)  \
   using NAME = Models<__VA_ARGS__>; \
-  template struct Opened<ModelOfPair<NAME>, &LIGGGHTS::PairStyles::Granular<ContactModel<NAME>>::cmodel>;
+  VIELTO_OPEN_MODELS(NAME)
 
 template <class PairStyle>
 LIGGGHTS::PairStyles::IGranularPairStyle* make_pair(LAMMPS_NS::LAMMPS* lmp, LAMMPS_NS::PairGran* parent, int64_t hash) {
