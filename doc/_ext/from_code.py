@@ -2,6 +2,7 @@
 """Pages from the code itself:
 
     {command-help} vielto gap diagnose      what the program says to --help; VIELTO_BIN is its folder (default: build/bin)
+    {program-page} vielto_laws              the Markdown that the program prints, but for its first heading and paragraph
     {parameters} cases/mixer/mixer.par      the lines of a parameter file or card: name, value, unit, u, source
     {effects} libraries/effects             one row an effect file
 """
@@ -13,6 +14,7 @@ import tomllib
 
 from docutils import nodes
 from docutils.parsers.rst import Directive
+from docutils.statemachine import StringList
 
 from results import table
 
@@ -74,23 +76,48 @@ class Effects(FromFile):
         return [table(["effect", "what it is", "kind", "range", "source of the range"], rows, code=1)]
 
 
-class CommandHelp(Directive):
+class FromProgram(Directive):
+    """A directive of one argument, a program in build/bin and words for it."""
+
     required_arguments = 1
     final_argument_whitespace = True
 
-    def run(self):
+    def said(self, *more):
+        """What the program prints; nothing if it is not there."""
         program, *words = self.arguments[0].split()
         path = pathlib.Path(os.environ.get("VIELTO_BIN", ROOT / "build/bin")) / program
         if not path.exists():
-            return [nodes.paragraph(text=f"{program} was not built when this page was made: scripts/build release")]
-        done = subprocess.run([program, *words, "--help"], executable=path, capture_output=True, text=True)
+            return ""
+        done = subprocess.run([program, *words, *more], executable=path, capture_output=True, text=True)
         if done.returncode != 0:
-            raise self.error(f"{self.arguments[0]} --help: {done.stderr.strip()}")
-        return [nodes.literal_block(text=done.stdout.rstrip(), language="text")]
+            raise self.error(f"{self.arguments[0]}: {done.stderr.strip()}")
+        return done.stdout.rstrip()
+
+    def missing(self):
+        text = f"{self.arguments[0].split()[0]} was not built when this page was made (scripts/build release)."
+        return [nodes.paragraph(text=text)]
+
+
+class CommandHelp(FromProgram):
+    def run(self):
+        text = self.said("--help")
+        return [nodes.literal_block(text=text, language="text")] if text else self.missing()
+
+
+class ProgramPage(FromProgram):
+    def run(self):
+        text = self.said()
+        if not text:
+            return self.missing()
+        body = text[text.index("\n## ") :] if "\n## " in text else text
+        holder = nodes.Element()
+        self.state.nested_parse(StringList(body.splitlines()), self.lineno, holder, match_titles=True)
+        return holder.children
 
 
 def setup(app):
     app.add_directive("parameters", Parameters)
     app.add_directive("effects", Effects)
     app.add_directive("command-help", CommandHelp)
+    app.add_directive("program-page", ProgramPage)
     return {"parallel_read_safe": True}

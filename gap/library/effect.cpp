@@ -150,7 +150,7 @@ Transform read_transform(const TomlTable& t) {
   transform.observable = t.text("observable");
   if (transform.observable != "*" && !observable_unit(transform.apparatus, transform.observable))
     t.refuse("observable", fmt::format("'{}' is no observable of {}", transform.observable, transform.apparatus),
-             "see doc/reference/formats.md");
+             "see doc/reference/observation_table.md");
   transform.operation = chosen<Operation>(t, "operation",
                                           {{"scale", Operation::scale},
                                            {"add", Operation::add},

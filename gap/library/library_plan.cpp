@@ -224,7 +224,7 @@ LibraryPlan LibraryPlan::read(const std::string& path, const std::vector<Effect>
   for (const TomlTable& t : tables_of(file, "bench")) {
     t.only({"observable", "rows"});
     const auto unit = observable_unit("bench", t.text("observable"));
-    if (!unit) t.refuse("observable", "is no bench observable", "see doc/reference/formats.md");
+    if (!unit) t.refuse("observable", "is no bench observable", "see doc/reference/observation_table.md");
     for (const TomlTable& r : tables_of(t, "rows")) {
       Observation row;
       row.apparatus = "bench";

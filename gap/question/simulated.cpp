@@ -20,7 +20,7 @@ std::vector<Observation> combinations(const std::string& apparatus, const std::s
   const auto unit = observable_unit(apparatus, observable);
   if (!unit)
     throw BadInput("--observable " + observable, 0, fmt::format("is none of apparatus '{}'", apparatus),
-                   "take one of doc/reference/formats.md");
+                   "take one of doc/reference/observation_table.md");
   Observation row;
   row.role = "fit";
   row.apparatus = apparatus;
