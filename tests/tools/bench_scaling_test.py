@@ -47,6 +47,6 @@ with tempfile.TemporaryDirectory() as name:
 
     (folder / "in.json").write_text("{")
     refused = subprocess.run([SCALING, "--from", folder / "in.json"], capture_output=True, text=True)
-    assert refused.returncode == 2 and "no scaling.json" in refused.stderr, refused
+    assert refused.returncode == 2 and "in.json:1: no JSON" in refused.stderr, refused
     assert subprocess.run([SCALING, "--turns", "3"], capture_output=True).returncode == 2
 print("scaling: ok")

@@ -14,11 +14,10 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 if not shutil.which("yade"):
     print("Yade is not installed (scripts/install-packages yade)")
     sys.exit(77)
-sys.path[:0] = [str(ROOT / "yade/stir"), str(ROOT / "yade/contact")]
+sys.path.insert(0, str(ROOT))
 import numpy  # noqa: E402
 
-import drum  # noqa: E402
-import runs  # noqa: E402
+from tools.yade import drum, runs  # noqa: E402
 
 case = json.loads((ROOT / "yade/stir/case.json").read_text())
 
@@ -79,7 +78,7 @@ with tempfile.TemporaryDirectory() as name:
     assert bulk("--limit", "1000", "--set", "speed=1.1")[1].count("seed ") == 4  # another case
 
     for words, what in (
-        (["--case", "/no/case"], "cannot be read"),
+        (["--case", "/no/case"], "No such file"),
         (["--set", "cheese=1"], "no number 'cheese'"),
         (["--set", "grains=x"], "'x' is no number"),
         (["--set", "grains=0"], "above 0"),

@@ -102,7 +102,7 @@ TEST_F(YadeContact, RefusesAProgramThatIsNotThere) {
 
 TEST_F(YadeCheck, RefusesBadInput) {
   refuses("--case nonsense", "no case 'nonsense'");
-  refuses("--cases /no/such/file", "/no/such/file: cannot be read");
+  refuses("--cases /no/such/file", "/no/such/file: No such file");
   std::ofstream(folder / "broken.json") << "{\n\"cases\": [,]\n}";
   refuses("--cases '" + (folder / "broken.json").string() + "'", "broken.json:2: no JSON");
   refuses(changed_cases([](nlohmann::json& c) { c.erase("step"); }), "normal_spheres: no entry 'step'");

@@ -3,17 +3,14 @@
 import json
 import math
 import pathlib
-import sys
 
 import numpy
 
-HERE = pathlib.Path(__file__).resolve().parent
-sys.path.insert(0, str(HERE.parent / "contact"))
-import drum  # noqa: E402
-import mapping  # noqa: E402
-from engines import start_program  # noqa: E402
-from errors import RunFailed  # noqa: E402
+from tools.errors import RunFailed
+from tools.yade import DATA, drum, mapping
+from tools.yade.engines import start_program
 
+HERE = pathlib.Path(__file__).resolve().parent
 SETTINGS = "springFactor 1 limitForce on slidingDashpot off radiusLever off"
 
 
@@ -82,7 +79,7 @@ def liggghts_files(case, folder, grains, turning):
 
 def liggghts(program, case, folder, grains, turning):
     liggghts_files(case, folder, grains, turning)
-    start_program([program, "-in", HERE / "in.drum"], folder)
+    start_program([program, "-in", DATA / "stir/in.drum"], folder)
     lines = (folder / "bed.dump").read_text().split("ITEM: ATOMS")[-1].splitlines()[1:]
     end = numpy.array([[float(w) for w in line.split()[1:]] for line in lines])
     check_all_there(case, end, "liggghts")
@@ -119,7 +116,7 @@ def yade_run(case, folder, grains):
 
 def yade(program, case, folder, grains):
     (folder / "run.json").write_text(json.dumps(yade_run(case, folder, grains)))
-    start_program([program, "-n", "-x", "-j1", HERE / "stir.py", "run.json"], folder)
+    start_program([program, "-n", "-x", "-j1", HERE / "in_yade/stir.py", "run.json"], folder)
     check_all_there(case, numpy.loadtxt(folder / "end"), "yade")
     return numpy.loadtxt(folder / "rows")
 

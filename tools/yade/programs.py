@@ -4,9 +4,8 @@ import pathlib
 import shutil
 import subprocess
 
-from errors import BadInput
-
-ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+from tools import ROOT
+from tools.errors import BadInput
 
 
 def prepare(liggghts, yade):

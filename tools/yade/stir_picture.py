@@ -2,15 +2,13 @@
 """Torque and bed of every run over the turn, both engines over each other."""
 import numpy
 
+from tools import pictures
+
 COLOURS = {"liggghts": "tab:blue", "yade": "tab:orange"}
 
 
 def draw(path, case, answer):
-    import matplotlib
-
-    matplotlib.use("Agg")
-    from matplotlib import pyplot
-
+    pyplot = pictures.pyplot()
     panels = {
         "torque, N m": lambda r: r[:, 1],
         "angle of the centre of mass, °": lambda r: numpy.degrees(numpy.arctan2(r[:, 2], -r[:, 3])),
@@ -33,5 +31,5 @@ def draw(path, case, answer):
     axes[0].legend(fontsize=8)
     axes[-1].set_xlabel("turn (grey: not averaged)")
     figure.tight_layout()
-    figure.savefig(path, dpi=90)
+    pictures.save(figure, path, dpi=90)
     pyplot.close(figure)

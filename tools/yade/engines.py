@@ -7,8 +7,8 @@ import subprocess
 
 import numpy
 
-import mapping
-from errors import RunFailed
+from tools.errors import RunFailed
+from tools.yade import DATA, mapping
 
 MODELS = {"vielto": "model vielto tangential vielto rolling_friction vielto", "cohfrict": "model cohfrict"}
 HERE = pathlib.Path(__file__).resolve().parent
@@ -89,7 +89,7 @@ def liggghts(program, case, folder, samples, level):
     (folder / "grains.data").write_text(
         f"{case['name']}\n\n{len(spheres)} atoms\n2 atom types\n\n{box}\nAtoms\n\n{atoms}" f"\nVelocities\n\n{moves}"
     )
-    start_program([program, "-in", HERE / "in.two_body"], folder)
+    start_program([program, "-in", DATA / "contact/in.two_body"], folder)
     rows = [line.split() for line in (folder / "states").read_text().splitlines()]
     data = numpy.array([[float(w) for w in r[1:]] for r in rows if len(r) == 16])
     return data.reshape(-1, len(spheres), 15)
@@ -116,5 +116,5 @@ def yade_run(case, folder, samples, level):
 def yade(program, runs, folder):
     """All runs in one process, for Yade takes seconds to start."""
     (folder / "runs.json").write_text(json.dumps(runs))
-    start_program([program, "-n", "-x", "-j1", HERE / "two_body.py", "runs.json"], folder)
+    start_program([program, "-n", "-x", "-j1", HERE / "in_yade/two_body.py", "runs.json"], folder)
     return [numpy.loadtxt(r["out"])[:, 1:].reshape(-1, len(r["spheres"]), 15) for r in runs]

@@ -8,7 +8,7 @@ import pathlib
 import sys
 import time
 
-sys.path.insert(0, str(pathlib.Path(sys.argv[0]).resolve().parent.parent / "yade/stir"))
+sys.path.insert(0, str(pathlib.Path(sys.argv[0]).resolve().parent))
 from scene import build  # noqa: E402
 
 run = json.load(open(sys.argv[1]))

@@ -5,9 +5,10 @@ import os
 import pathlib
 import re
 import subprocess
-import sys
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent
+from tools import ROOT
+from tools.errors import RunFailed
+
 BIN = ROOT / "build" / "bin"
 ENV = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1", OMP_NUM_THREADS="1")
 
@@ -55,11 +56,14 @@ class Program:
                 self.memory = float(memory[1])
             if line.startswith(word):
                 return line
-        sys.exit(f"bench: {' '.join(self.process.args)} ended early:\n{''.join(lines[-8:])}")
+        raise RunFailed(f"{' '.join(self.process.args)} ended early:\n{''.join(lines[-8:])}")
 
     def say(self, text):
-        self.process.stdin.write(text)
-        self.process.stdin.flush()
+        try:
+            self.process.stdin.write(text)
+            self.process.stdin.flush()
+        except BrokenPipeError:
+            raise RunFailed(f"{' '.join(self.process.args)} ended early; {self.log.name} tells why")
 
     def quit(self):
         self.process.communicate("quit\n")
@@ -80,7 +84,9 @@ class Engine(Program):
 
 class Yade(Program):
     def __init__(self, folder):
-        super().__init__(["yade", "-n", "-x", "-j1", str(ROOT / "bench/stirred_yade.py"), "run.json"], folder, "yade")
+        super().__init__(
+            ["yade", "-n", "-x", "-j1", str(ROOT / "tools/yade/in_yade/stirred.py"), "run.json"], folder, "yade"
+        )
         self.until("READY")
 
     def step(self, steps):
@@ -138,7 +144,7 @@ def make_bed(folder, geometry=(), **variables):
     angle = re.search(r"^ANGLE (\S+)", result.stdout, re.M)
     box = re.search(r"^BOX (\S+) (\S+) (\S+)", result.stdout, re.M)
     if not angle or not box:
-        sys.exit(f"bench: the bed could not be made:\n{result.stdout[-800:]}")
+        raise RunFailed(f"the bed could not be made:\n{result.stdout[-800:]}")
     lines = pathlib.Path(folder, "bed.dump").read_text().split("ITEM: ATOMS")[-1].splitlines()[1:]
     grains = [line.split() for line in lines]
     length, top, density = box.groups()

@@ -1,9 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Reads cases.json: every case with its defaults and materials filled in, or BadInput."""
-import json
-
-import mapping
-from errors import BadInput
+from tools import files
+from tools.errors import BadInput
+from tools.yade import mapping
 
 LAWS = ("ViscEl", "CohFrict")
 
@@ -37,12 +36,7 @@ def filled(book, raw, where):
 
 
 def read(path, names):
-    try:
-        book = json.loads(path.read_text())
-    except OSError as e:
-        raise BadInput(f"{path}: cannot be read ({e.strerror}); give a file of cases with --cases")
-    except json.JSONDecodeError as e:
-        raise BadInput(f"{path}:{e.lineno}: no JSON: {e.msg}")
+    book = files.read_json(path, "give a file of cases with --cases")
     for key in ("limit", "samples", "materials", "defaults", "cases"):
         if key not in book:
             raise BadInput(f"{path}: no entry {key!r}")

@@ -6,10 +6,10 @@ import os
 import pathlib
 import statistics
 import subprocess
-import sys
 
-import packing
-from stepping import BIN, ROOT, Engine, Lammps, Yade, make_bed
+from tools import files
+from tools.bench import packing
+from tools.bench.stepping import BIN, ROOT, Engine, Lammps, Yade, make_bed
 
 # What the law has to move, at least: of a contact its seven history values read and written, its touch flag read and
 # written, the neighbour's index; of a grain x, v, omega, radius, mass, type once, force and torque read and written.
@@ -77,11 +77,9 @@ def ranks(folder, quick, pairs):
 
 def yade(folder, quick, pairs):
     """The stirred drum of yade/stir in both engines, one core each: how often as many particle-steps a second."""
-    sys.path[:0] = [str(ROOT / "yade/stir"), str(ROOT / "yade/contact")]
-    import drum
-    import runs
+    from tools.yade import drum, runs
 
-    case = json.loads((ROOT / "yade/stir/case.json").read_text())
+    case = files.read_json(ROOT / "yade/stir/case.json", "bring it back")
     where = pathlib.Path(folder)
     runs.meshes(case, where)
     grains = drum.random_grains(case, 1)

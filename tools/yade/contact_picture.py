@@ -2,13 +2,11 @@
 """The trajectories of both engines over each other, one panel a case."""
 import numpy
 
+from tools import pictures
+
 
 def draw(path, answer):
-    import matplotlib
-
-    matplotlib.use("Agg")
-    from matplotlib import pyplot
-
+    pyplot = pictures.pyplot()
     columns = 4
     rows = -(-len(answer) // columns)
     figure, panels = pyplot.subplots(rows, columns, figsize=(4 * columns, 2.5 * rows), squeeze=False)
@@ -27,5 +25,5 @@ def draw(path, answer):
     figure.supylabel("velocity (thick) and spin times radius (thin) of sphere 1, m/s: x red, y green, z blue")
     figure.suptitle("liggghts (lines) and Yade (dots); in the titles: the largest difference")
     figure.tight_layout(rect=(0.01, 0, 1, 0.985))
-    figure.savefig(path, dpi=80)
+    pictures.save(figure, path, dpi=80)
     pyplot.close(figure)

@@ -1,0 +1,198 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""In bulk: the same stirred drum in liggghts and in Yade, from the same beds, the case of yade/stir/case.json.
+
+For each seed grains are placed at random, come to rest in liggghts, and both engines start from that bed, the grains at
+rest. Each run is kept in OUT/bulk/SEED.ENGINE.csv and not made again while the case stays as it is, so a broken-off
+call goes on and more seeds can be added. Writes bulk.csv (a line a run), bulk.md (the differences) and bulk.png to OUT.
+Ends with 1 if the 95 % interval of a difference leaves --limit.
+"""
+import hashlib
+import json
+import pathlib
+import tempfile
+import time
+
+from tools import files, tables
+from tools.errors import BadInput, RunFailed
+from tools.yade import DATA
+from tools.yade.programs import prepare
+
+ENGINES = ("liggghts", "yade")
+COLUMNS = "turn,torque_Nm,y_m,z_m,yy_m2,zz_m2,yz_m2"
+NAMES = {
+    "torque_Nm": "mean torque, N m",
+    "angle_deg": "centre of mass, angle from straight down, °",
+    "distance_m": "centre of mass, distance from the axis, m",
+    "slope_deg": "slope of the bed (long axis of the grains' scatter), °",
+}
+
+
+def add_options(parser):
+    parser.add_argument("--seeds", type=int, default=5, metavar="N", help="seeds 1 to N (default 5)")
+    parser.add_argument("--case", type=pathlib.Path, default=DATA / "stir/case.json", metavar="FILE")
+    parser.add_argument(
+        "--set",
+        action="append",
+        default=[],
+        metavar="NAME=NUMBER",
+        help="another number of the case, such as grains=200",
+    )
+    parser.add_argument("--out", type=pathlib.Path, default=DATA / "results", metavar="FOLDER")
+    parser.add_argument("--limit", type=float, default=0.05, metavar="PART", help="of the mean of both (default 0.05)")
+    parser.add_argument(
+        "--liggghts", metavar="PROGRAM", help="liggghts with our laws (default: build/bin/liggghts, built anew)"
+    )
+    parser.add_argument("--yade", default="yade", metavar="PROGRAM")
+
+
+def read_case(opts):
+    case = files.read_json(opts.case, "give a case with --case")
+    wanted = (
+        "material",
+        "density",
+        "radius",
+        "grains",
+        "drum",
+        "rotor",
+        "speed",
+        "turns",
+        "averagedFrom",
+        "rowsPerTurn",
+        "stepsPerRow",
+        "settleTime",
+        "gravity",
+    )
+    for setting in opts.set:
+        name, _, value = setting.partition("=")
+        if not isinstance(case.get(name), (int, float)):
+            raise BadInput(f"--set {setting}: the case has no number {name!r}")
+        try:
+            case[name] = int(value) if value.isdigit() else float(value)
+        except ValueError:
+            raise BadInput(f"--set {setting}: {value!r} is no number")
+    for name in wanted:
+        if name not in case:
+            raise BadInput(f"{opts.case}: no entry {name!r}")
+        if isinstance(case[name], (int, float)) and name != "averagedFrom" and not case[name] > 0:
+            raise BadInput(f"{opts.case}: {name} is {case[name]}; a number above 0 is needed")
+    for name in ("grains", "rowsPerTurn", "stepsPerRow"):
+        if not isinstance(case[name], int):
+            raise BadInput(f"{opts.case}: {name} is {case[name]}; a whole number is needed")
+    if case["stepsPerRow"] % 8:
+        raise BadInput(
+            f"{opts.case}: stepsPerRow is {case['stepsPerRow']}; a multiple of 8 is needed (torque is sampled every 8)"
+        )
+    if not 0 <= case["averagedFrom"] < case["turns"]:
+        raise BadInput(
+            f"{opts.case}: averagedFrom is {case['averagedFrom']} of {case['turns']} turns; nothing would be averaged"
+        )
+    if opts.seeds < 2:
+        raise BadInput(f"--seeds {opts.seeds}: an interval needs at least 2")
+    case.pop("about", None)
+    return case
+
+
+def stored(path, stamp):
+    """The rows of a run made of this very case, or None."""
+    import numpy
+
+    if not path.exists() or path.read_text().split("\n", 1)[0] != stamp:
+        return None
+    return numpy.loadtxt(path, delimiter=",", skiprows=2)
+
+
+def run_all(opts, case):
+    from tools.yade import drum, runs
+
+    stamp = "# case=" + hashlib.sha256(json.dumps(case, sort_keys=True).encode()).hexdigest()[:16]
+    kept = opts.out / "bulk"
+    kept.mkdir(parents=True, exist_ok=True)
+    answer = {engine: [] for engine in ENGINES}
+    for seed in range(1, opts.seeds + 1):
+        bed = None
+        for engine in ENGINES:
+            path = kept / f"{seed}.{engine}.csv"
+            rows = stored(path, stamp)
+            if rows is None:
+                with tempfile.TemporaryDirectory(prefix="vielto-bulk-") as name:
+                    folder = pathlib.Path(name)
+                    runs.meshes(case, folder)
+                    if bed is None:
+                        grains = drum.random_grains(case, seed)
+                        if grains is None:
+                            raise BadInput(
+                                f"{opts.case}: {case['grains']} grains find no place in the drum; take fewer"
+                            )
+                        bed = runs.liggghts(opts.liggghts, case, folder, grains, turning=False)
+                    begin = time.monotonic()
+                    rows = (
+                        runs.liggghts(opts.liggghts, case, folder, bed, turning=True)
+                        if engine == "liggghts"
+                        else runs.yade(opts.yade, case, folder, bed)
+                    )
+                    print(f"seed {seed}, {engine}: {time.monotonic() - begin:.0f} s", flush=True)
+                lines = [stamp, COLUMNS] + [",".join(f"{v:.9g}" for v in r) for r in rows]
+                files.write_text(path, "\n".join(lines) + "\n")
+            answer[engine].append(rows)
+    return answer
+
+
+def difference(a, b):
+    """Yade less liggghts over the mean of both, with its 95 % interval (Welch), from one value a seed."""
+    import numpy
+    from scipy import stats
+
+    a, b = numpy.array(a), numpy.array(b)
+    scale = 0.5 * abs(a.mean() + b.mean())
+    va, vb = a.var(ddof=1) / len(a), b.var(ddof=1) / len(b)
+    dof = (va + vb) ** 2 / (va**2 / (len(a) - 1) + vb**2 / (len(b) - 1))
+    half = stats.t.ppf(0.975, dof) * (va + vb) ** 0.5
+    middle = b.mean() - a.mean()
+    return [q / scale for q in (middle, middle - half, middle + half)]
+
+
+def mean_and_spread(values):
+    import numpy
+
+    return f"{numpy.mean(values):.4g} ± {numpy.std(values, ddof=1):.2g}"
+
+
+def write_tables(opts, case, answer):
+    from tools.yade.runs import observables
+
+    values = {e: [observables(case, rows) for rows in answer[e]] for e in ENGINES}
+    rows = [[i + 1, e, *(f"{values[e][i][name]:.6g}" for name in NAMES)] for i in range(opts.seeds) for e in ENGINES]
+    tables.write(opts.out / "bulk.csv", ["seed", "engine", *NAMES], rows)
+    lines = [
+        f"{opts.seeds} seeds, {case['grains']} grains, turns {case['averagedFrom']:g} to {case['turns']:g}; mean ± standard deviation over",
+        "the seeds; difference: Yade less liggghts over the mean of both, 95 % interval; made by `yade/bulk`.",
+        "",
+        "| | liggghts | Yade | difference | |",
+        "|---|---|---|---|---|",
+    ]
+    beyond = []
+    for name, words in NAMES.items():
+        a, b = ([v[name] for v in values[e]] for e in ENGINES)
+        middle, low, high = difference(a, b)
+        inside = -opts.limit <= low and high <= opts.limit
+        if not inside:
+            beyond.append(f"{words.split(',')[0]} {100 * low:+.1f} to {100 * high:+.1f} %")
+        lines.append(
+            f"| {words} | {mean_and_spread(a)} | {mean_and_spread(b)} | {100 * middle:+.1f} % ({100 * low:+.1f} to {100 * high:+.1f}) "
+            f"| {'within' if inside else 'beyond'} ± {100 * opts.limit:g} % |"
+        )
+    files.write_text(opts.out / "bulk.md", "\n".join(lines) + "\n")
+    print("\n".join(lines[3:]))
+    return beyond
+
+
+def work(opts):
+    case = read_case(opts)
+    opts.liggghts = prepare(opts.liggghts, opts.yade)
+    answer = run_all(opts, case)
+    beyond = write_tables(opts, case, answer)
+    from tools.yade.stir_picture import draw
+
+    draw(opts.out / "bulk.png", case, answer)
+    if beyond:
+        raise RunFailed(f"not shown to lie within ± {100 * opts.limit:g} %: {'; '.join(beyond)}")
