@@ -70,6 +70,18 @@ def read(path, columns, mend, key=None, seen=None, may_be_empty=False):
     return Table(header, rows)
 
 
+def read_record(path):
+    """A rig's record: the settings that stand on top, `# name=value`, and the table below them."""
+    lines = files.read_text(path, "name a record of a run").splitlines()
+    top = next((k for k, line in enumerate(lines) if not line.startswith("#")), len(lines))
+    settings = dict(line[1:].strip().partition("=")[::2] for line in lines[:top] if "=" in line)
+    reader = csv.DictReader(lines[top:], strict=True)
+    rows = [Row(cells, path, top + reader.line_num) for cells in reader]
+    if not rows:
+        raise BadInput(f"{path}: holds no row; name the record of a run that is complete")
+    return settings, Table(list(reader.fieldnames), rows)
+
+
 def text(header, rows):
     """The table as CSV; a row is a sequence of cells or a mapping."""
     out = io.StringIO()

@@ -131,7 +131,7 @@ if scripts/campaign "$work/study.csv" --out "$work/study" --bin "$bin" --slurm -
 fi
 [ -d "$work/study/runs/whole" ] || { cat "$work/study/snakemake.log" >&2; exit 1; }
 [ -f "$work/study/observations.csv" ] && { echo "slurm_test: a table without one of its runs" >&2; exit 1; }
-sed -i /^bad/d "$work/study.csv"
+scripts/table select "$work/study.csv" --without run=bad --out "$work/study.csv"
 scripts/campaign "$work/study.csv" --out "$work/study" --bin "$bin" --slurm --every 5 >"$work/campaign.log" 2>&1 || { cat "$work/study/snakemake.log" >&2; exit 1; }
 grep -q ^whole, "$work/study/observations.csv"
 echo "a campaign: jobs, a failing one, the table"

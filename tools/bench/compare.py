@@ -25,6 +25,7 @@ from tools import ROOT, files
 from tools.bench.parts import PACKAGES, PARTS, machine
 from tools.bench.stepping import build
 from tools.errors import BadInput
+from tools.progress import Progress
 
 
 def report(results):
@@ -76,6 +77,7 @@ def work(options):
     parts = options.part or list(PARTS)
     build(name for part in parts for name in PACKAGES.get(part, []))
     pairs = min(options.pairs, 12) if options.quick else options.pairs
+    progress = Progress("parts measured", len(parts), every=0)
     for part in parts:
         with tempfile.TemporaryDirectory(prefix="vielto-bench-") as folder:
             load = float(open("/proc/loadavg").read().split()[0])
@@ -87,3 +89,4 @@ def work(options):
         files.write_json(out, results)
         files.write_text(out.with_suffix(".md"), report(results))
         print(json.dumps(found, indent=2), flush=True)
+        progress.step()

@@ -14,6 +14,7 @@ import time
 
 from tools import files, tables
 from tools.errors import BadInput, RunFailed
+from tools.progress import Progress
 from tools.yade import DATA
 from tools.yade.programs import prepare
 
@@ -102,39 +103,40 @@ def stored(path, stamp):
 
 
 def run_all(opts, case):
-    from tools.yade import drum, runs
-
+    """{engine: [rows of each seed]}; what is kept of this very case is not made again."""
     stamp = "# case=" + hashlib.sha256(json.dumps(case, sort_keys=True).encode()).hexdigest()[:16]
     kept = opts.out / "bulk"
     kept.mkdir(parents=True, exist_ok=True)
-    answer = {engine: [] for engine in ENGINES}
-    for seed in range(1, opts.seeds + 1):
-        bed = None
-        for engine in ENGINES:
-            path = kept / f"{seed}.{engine}.csv"
-            rows = stored(path, stamp)
-            if rows is None:
-                with tempfile.TemporaryDirectory(prefix="vielto-bulk-") as name:
-                    folder = pathlib.Path(name)
-                    runs.meshes(case, folder)
-                    if bed is None:
-                        grains = drum.random_grains(case, seed)
-                        if grains is None:
-                            raise BadInput(
-                                f"{opts.case}: {case['grains']} grains find no place in the drum; take fewer"
-                            )
-                        bed = runs.liggghts(opts.liggghts, case, folder, grains, turning=False)
-                    begin = time.monotonic()
-                    rows = (
-                        runs.liggghts(opts.liggghts, case, folder, bed, turning=True)
-                        if engine == "liggghts"
-                        else runs.yade(opts.yade, case, folder, bed)
-                    )
-                    print(f"seed {seed}, {engine}: {time.monotonic() - begin:.0f} s", flush=True)
-                lines = [stamp, COLUMNS] + [",".join(f"{v:.9g}" for v in r) for r in rows]
-                files.write_text(path, "\n".join(lines) + "\n")
-            answer[engine].append(rows)
-    return answer
+    places = {(seed, e): kept / f"{seed}.{e}.csv" for seed in range(1, opts.seeds + 1) for e in ENGINES}
+    rows = {key: stored(path, stamp) for key, path in places.items()}
+    waiting = [key for key in places if rows[key] is None]
+    progress, beds = Progress("runs made", len(waiting)), {}
+    for seed, engine in waiting:
+        with tempfile.TemporaryDirectory(prefix="vielto-bulk-") as folder:
+            rows[seed, engine] = run(opts, case, pathlib.Path(folder), seed, engine, beds)
+        lines = [stamp, COLUMNS] + [",".join(f"{v:.9g}" for v in r) for r in rows[seed, engine]]
+        files.write_text(places[seed, engine], "\n".join(lines) + "\n")
+        progress.step()
+    return {engine: [rows[seed, engine] for seed in range(1, opts.seeds + 1)] for engine in ENGINES}
+
+
+def run(opts, case, folder, seed, engine, beds):
+    """Rows of one run; `beds` remembers the grains at rest of each seed."""
+    from tools.yade import drum, runs
+
+    runs.meshes(case, folder)
+    if seed not in beds:
+        grains = drum.random_grains(case, seed)
+        if grains is None:
+            raise BadInput(f"{opts.case}: {case['grains']} grains find no place in the drum; take fewer")
+        beds[seed] = runs.liggghts(opts.liggghts, case, folder, grains, turning=False)
+    begin = time.monotonic()
+    if engine == "liggghts":
+        rows = runs.liggghts(opts.liggghts, case, folder, beds[seed], turning=True)
+    else:
+        rows = runs.yade(opts.yade, case, folder, beds[seed])
+    print(f"seed {seed}, {engine}: {time.monotonic() - begin:.0f} s", flush=True)
+    return rows
 
 
 def difference(a, b):

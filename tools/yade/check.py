@@ -10,6 +10,7 @@ import tempfile
 
 from tools import files, tables
 from tools.errors import RunFailed
+from tools.progress import Progress
 from tools.yade import DATA, cases
 from tools.yade.programs import prepare
 
@@ -37,6 +38,7 @@ def run_all(opts, book, chosen):
         print(f"{len(chosen)} cases, {LEVELS} time steps each, in Yade ...", flush=True)
         runs = [engines.yade_run(c, folder, book["samples"], k) for c in chosen for k in range(LEVELS)]
         theirs = engines.yade(opts.yade, runs, folder)
+        progress = Progress("cases compared", len(chosen))
         for i, case in enumerate(chosen):
             ours = [engines.liggghts(opts.liggghts, case, folder, book["samples"], k) for k in range(LEVELS)]
             rows = compare(ours, theirs[LEVELS * i : LEVELS * (i + 1)])
@@ -47,6 +49,7 @@ def run_all(opts, book, chosen):
             print(
                 f"{case['name']:28} largest difference {100 * worst:.2g} % of the largest value: {verdict}", flush=True
             )
+            progress.step()
             answer.append(
                 {
                     "case": case,

@@ -6,6 +6,7 @@ import pathlib
 
 import numpy
 
+from tools import tables
 from tools.errors import RunFailed
 from tools.yade import DATA, drum, mapping
 from tools.yade.engines import start_program
@@ -85,11 +86,10 @@ def liggghts(program, case, folder, grains, turning):
     check_all_there(case, end, "liggghts")
     if not turning:
         return end
-    lines = [x for x in (folder / "torque.csv").read_text().splitlines() if not x.startswith("#")]
-    names = lines[0].split(",")
+    _, record = tables.read_record(folder / "torque.csv")
 
     def pick(name):
-        return numpy.array([float(x.split(",")[names.index(name)]) for x in lines[1:]])
+        return numpy.array([row.number(name) for row in record])
 
     shape = numpy.loadtxt(folder / "shape.txt")
     shape = shape[shape[:, 0] > 0][:, 1:]
