@@ -519,7 +519,8 @@ void add_gap_command(CLI::App& app) {
       "0.2");
   common(predict_command);
   predict_command->add_option("--apparatus", o->apparatus, "mixer, shearbox, repose, drum")->capture_default_str();
-  predict_command->add_option("--observable", o->observable, "of doc/reference/observation_table.md")->capture_default_str();
+  predict_command->add_option("--observable", o->observable, "of doc/reference/observation_table.md")
+      ->capture_default_str();
   for (const NamedCondition& c : kConditions) {
     std::string option = std::string("--") + c.name;
     std::replace(option.begin(), option.end(), '_', '-');

@@ -183,7 +183,8 @@ void add_import_command(CLI::App& app) {
   add_import_surface(*import);
   CLI::App* command = import->add_subcommand(
       "yade",
-      "torque and positions saved by a Yade script (plot.saveDataTxt, VTKRecorder, export.text); see doc/guide/yade_results.md\n"
+      "torque and positions saved by a Yade script (plot.saveDataTxt, VTKRecorder, export.text); see "
+      "doc/guide/yade_results.md\n"
       "Example: vielto import yade --torque plot.txt --torque-column Tx --time-column t --speed 1 --fill 0.15 \\\n"
       "           --test seed1 --out observations.csv");
   command->add_option("--out", o->out, "the observation table to write")->required();

@@ -226,9 +226,9 @@ void predict_power(const PredictOptions& o) {
   if (e.provisional || s.material.provisional)
     report.text += "note: provisional: a material card is not calibrated yet\n";
   if (o.thesis)
-    report.text +=
-        fmt::format("note: u = {:.1f} % of the power, from the booklet's maximum error of 13.7 % (doc/theory/equation.md)\n",
-                    100 * thesis_relative_u());
+    report.text += fmt::format(
+        "note: u = {:.1f} % of the power, from the booklet's maximum error of 13.7 % (doc/theory/equation.md)\n",
+        100 * thesis_relative_u());
   if (!o.out.empty()) {
     const std::vector<Observation> rows = observations(o, s);
     if (o.covariance) write_covariance(o.out, rows);

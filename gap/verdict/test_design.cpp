@@ -77,7 +77,8 @@ std::vector<CandidateTest> read_candidate_tests(const std::string& path) {
       row.observable = r.text("observable");
       const auto unit = observable_unit(row.apparatus, row.observable);
       if (!unit)
-        r.refuse("observable", fmt::format("'{}' is none of {}", row.observable, row.apparatus), "see doc/reference/observation_table.md");
+        r.refuse("observable", fmt::format("'{}' is none of {}", row.observable, row.apparatus),
+                 "see doc/reference/observation_table.md");
       row.unit = *unit;
       if (r.has("u") == r.has("relative_u")) r.refuse("u", "or relative_u must be there, one of them", "state one");
       test.relative_u.push_back(r.has("relative_u"));

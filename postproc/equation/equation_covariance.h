@@ -8,8 +8,8 @@
 //     K_ij = exp(-d_ij^2/2), d the distance in steps of the grid (ln l and ln n each over its mean step).
 // The booklet does not say how much of its 13.7 % is scatter of single measurements (which a fit averages out) and how
 // much is want of form (which it keeps). All of it is taken as want of form, k making the mean variance s^2: the
-// cautious choice, as it leaves u what doc/theory/equation.md says and only correlates neighbours. Correlations R_ij of that
-// sum; covariance_ij = R_ij u_i u_j.
+// cautious choice, as it leaves u what doc/theory/equation.md says and only correlates neighbours. Correlations R_ij of
+// that sum; covariance_ij = R_ij u_i u_j.
 #pragma once
 
 #include <Eigen/Dense>
