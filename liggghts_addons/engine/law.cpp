@@ -22,6 +22,15 @@ std::string range_of(const PropertyRule& rule) {
   return (rule.lowAllowed ? "[" : "(") + bound(rule.low) + ", " + bound(rule.high) + (rule.highAllowed ? "]" : ")");
 }
 
+std::string models_of(const Law& law) {
+  std::string text = "model " + law.normal;
+  if (!law.tangential.empty()) text += " tangential " + law.tangential;
+  for (std::size_t k = 0; k < law.cohesions.size(); k++)
+    text += (k == 0 ? " [cohesion " : "|") + law.cohesions[k] + (k + 1 == law.cohesions.size() ? "]" : "");
+  if (!law.rolling.empty()) text += " rolling_friction " + law.rolling;
+  return text;
+}
+
 const std::vector<Law>& laws() {
 #define VIELTO_LAW(NAME) describe_##NAME(),
   static const std::vector<Law> all = {VIELTO_LAWS};

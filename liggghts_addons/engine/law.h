@@ -72,6 +72,9 @@ struct Law {
 // "(0, 0.1]", as a reader writes it.
 std::string range_of(const PropertyRule& rule);
 
+// The words of pair_style that a law goes with: "model NAME tangential ... [cohesion A, B] ...".
+std::string models_of(const Law& law);
+
 // All laws, in the order in which liggghts_addons/CMakeLists.txt names them.
 const std::vector<Law>& laws();
 // By name, or by the id of its normal model; NULL if there is none.

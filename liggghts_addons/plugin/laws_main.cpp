@@ -27,14 +27,6 @@ std::string readable(const std::string& formula) {
   return text;
 }
 
-std::string models_of(const Law& law) {
-  std::string text = "model " + law.normal;
-  if (!law.tangential.empty()) text += " tangential " + law.tangential;
-  if (!law.cohesions.empty()) text += " [cohesion NAME]";
-  if (!law.rolling.empty()) text += " rolling_friction " + law.rolling;
-  return text;
-}
-
 std::string listed(const std::vector<std::string>& words, const std::string& none) {
   std::string text;
   for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;

@@ -31,6 +31,7 @@
 #include "script/script_command.h"
 #include "engine/private_access.h"
 #include "engine/law.h"
+#include "vielto_stop.h"
 // clang-format on
 
 using namespace LAMMPS_NS;
@@ -46,11 +47,20 @@ struct FixTable {
 struct CommandTable {
   typedef std::map<std::string, void (*)(LAMMPS*, int, char**)>* Input::*type;
 };
+template <class Interface>
+struct Combinations {
+  typedef Interface* (*Creator)(LAMMPS*, typename Interface::ParentType*, int64_t);
+  typedef std::map<std::pair<std::string, int>, Creator> Utils::AbstractFactory<Interface>::*type;
+};
+typedef Combinations<PairStyles::IGranularPairStyle> PairCombinations;
+typedef Combinations<Walls::IGranularWall> WallCombinations;
 }  // namespace
 
 // see vielto_open.h
 template struct Opened<FixTable, &Modify::fix_map>;
 template struct Opened<CommandTable, &Input::command_map>;
+template struct Opened<PairCombinations, &Utils::AbstractFactory<PairStyles::IGranularPairStyle>::styleTable>;
+template struct Opened<WallCombinations, &Utils::AbstractFactory<Walls::IGranularWall>::styleTable>;
 
 namespace {
 
@@ -74,9 +84,46 @@ void run_command(LAMMPS* lmp, int narg, char** arg) {
   command.command(narg, arg);
 }
 
+/* A combination that nobody registered goes to LIGGGHTS' general one, which says of any model of ours that it is
+   unknown. The ids of a combination's models stand in its hash, 6 bits each. */
+void refuse_strangers(LAMMPS* lmp, int64_t hash) {
+  const auto id = [hash](int place) { return static_cast<int>(hash >> (6 * place) & 63); };
+  const Law* const own = find_law(id(0));
+  if (own)
+    stop_all(lmp, ("vielto: " + own->normal + " does not take these partners; write '" + models_of(*own) +
+                   "', in this order")
+                      .c_str());
+  const bool ours = id(1) == TANGENTIAL_VIELTO || id(2) == COHESION_ADHESION || id(3) == ROLLING_VIELTO;
+  if (ours)
+    stop_all(lmp, ("vielto: tangential vielto, rolling_friction vielto and cohesion adhesion go with a normal model of "
+                   "this package only, as in '" +
+                   models_of(laws().front()) + "'")
+                      .c_str());
+}
+
+template <class Table, class Interface>
+struct General {
+  static typename Table::Creator stock;
+  static Interface* make(LAMMPS* lmp, typename Interface::ParentType* parent, int64_t hash) {
+    refuse_strangers(lmp, hash);
+    return stock(lmp, parent, hash);
+  }
+  static void put_before(Utils::AbstractFactory<Interface>& factory) {
+    typename Table::Creator& creator =
+        (factory.*Handed<Table>::pointer)[{"gran", static_cast<int>(GranStyle<>::HASHCODE)}];
+    if (!creator || creator == &make) return;
+    stock = creator;
+    creator = &make;
+  }
+};
+template <class Table, class Interface>
+typename Table::Creator General<Table, Interface>::stock;
+
 }  // namespace
 
 void install(LAMMPS* lmp) {
+  General<PairCombinations, PairStyles::IGranularPairStyle>::put_before(PairStyles::Factory::instance());
+  General<WallCombinations, Walls::IGranularWall>::put_before(Walls::Factory::instance());
   auto& fixes = *(lmp->modify->*Handed<FixTable>::pointer);
   fixes["vielto/record"] = &make_fix<FixViEltoRecord>;
   fixes["vielto/plate"] = &make_fix<FixViEltoPlate>;

@@ -145,20 +145,27 @@ TEST_P(BadSetting, IsNamed) {
 #define VIELTO "model vielto tangential vielto rolling_friction vielto "
 INSTANTIATE_TEST_SUITE_P(
     Settings, BadSetting,
-    testing::Values(Line{"spring_factor_zero", VIELTO "springFactor 0", {"springFactor must be > 0"}},
-                    Line{"spring_factor_negative", VIELTO "springFactor -4", {"springFactor must be > 0"}},
-                    Line{"spring_factor_nan", VIELTO "springFactor nan", {"springFactor must be > 0"}},
-                    Line{"wall_radius_factor_zero", VIELTO "wallRadiusFactor 0", {"wallRadiusFactor must be > 0"}},
-                    Line{"max_overlap_negative", VIELTO "maxOverlap -0.1", {"maxOverlap must be >= 0"}},
-                    Line{"limit_force_maybe", VIELTO "limitForce maybe", {"limitForce"}},
-                    Line{"sliding_dashpot_number", VIELTO "slidingDashpot 1", {"slidingDashpot"}},
-                    Line{"unknown_setting", VIELTO "springfactor 4", {"springfactor"}},
-                    // a third of ViElTo has no meaning; LIGGGHTS then looks among its own models and does not find it
-                    Line{"other_normal_model", "model hooke tangential vielto", {"Unknown tangential model"}},
-                    Line{"other_tangential_model", "model vielto tangential history", {"Unknown normal model"}},
-                    Line{"rolling_without_its_normal_model",
-                         "model hooke tangential history rolling_friction vielto",
-                         {"Unknown rolling model"}}),
+    testing::Values(
+        Line{"spring_factor_zero", VIELTO "springFactor 0", {"springFactor must be > 0"}},
+        Line{"spring_factor_negative", VIELTO "springFactor -4", {"springFactor must be > 0"}},
+        Line{"spring_factor_nan", VIELTO "springFactor nan", {"springFactor must be > 0"}},
+        Line{"wall_radius_factor_zero", VIELTO "wallRadiusFactor 0", {"wallRadiusFactor must be > 0"}},
+        Line{"max_overlap_negative", VIELTO "maxOverlap -0.1", {"maxOverlap must be >= 0"}},
+        Line{"limit_force_maybe", VIELTO "limitForce maybe", {"limitForce"}},
+        Line{"sliding_dashpot_number", VIELTO "slidingDashpot 1", {"slidingDashpot"}},
+        Line{"unknown_setting", VIELTO "springfactor 4", {"springfactor"}},
+        // a third of ViElTo has no meaning
+        Line{"other_normal_model", "model hooke tangential vielto", {"go with a normal model of this package"}},
+        Line{"other_tangential_model",
+             "model vielto tangential history",
+             {"vielto does not take these partners", "model vielto tangential vielto"}},
+        Line{"normal_model_alone", "model vielto", {"does not take these partners"}},
+        Line{"other_cohesion",
+             "model hooke/watched tangential history cohesion adhesion rolling_friction epsd2",
+             {"hooke/watched does not take these partners", "[cohesion sjkr|sjkr2]"}},
+        Line{"rolling_without_its_normal_model",
+             "model hooke tangential history rolling_friction vielto",
+             {"go with a normal model of this package"}}),
     line_name);
 #undef VIELTO
 
