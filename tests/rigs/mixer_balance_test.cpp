@@ -60,5 +60,5 @@ TEST_P(MixerBalance, ShaftWorkIsDissipatedAndTorquesAddUpToNothing) {
   EXPECT_GT(std::fabs(gravity), 4 * u);  // the bed leans, and would be missed
 }
 
-INSTANTIATE_TEST_SUITE_P(Laws, MixerBalance, testing::Values("vielto", "cohfrict"),
+INSTANTIATE_TEST_SUITE_P(Laws, MixerBalance, testing::Values("vielto", "cohfrict", "walton_braun"),
                          [](const auto& tested) { return std::string(tested.param); });
