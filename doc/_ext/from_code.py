@@ -3,7 +3,7 @@
 
     {command-help} vielto gap diagnose      what the program says to --help; VIELTO_BIN is its folder (default: build/bin)
     {program-page} vielto_laws              the Markdown that the program prints, but for its first heading and paragraph
-    {parameters} cases/mixer/mixer.par      the lines of a parameter file or card: name, value, unit, u, source
+    {parameters} cases/mixer/mixer.par      the lines of a parameter file or card: name, value, unit, (range,) u, source
     {effects} libraries/effects             one row an effect file
 """
 import os
@@ -47,7 +47,7 @@ class Parameters(FromFile):
         if not rows:
             raise self.error(f"{self.arguments[0]}: has no `variable NAME index VALUE`")
         width = max(len(row) for row in rows)
-        heads = {5: ["name", "value", "unit", "u", "source"], 6: ["name", "value", "unit", "u", "range", "source"]}
+        heads = {5: ["name", "value", "unit", "u", "source"], 6: ["name", "value", "unit", "range", "u", "source"]}
         if width not in heads:
             raise self.error(f"{self.arguments[0]}: {width} columns; say in from_code.py what they are")
         rows = [row[:-1] + [""] * (width - len(row)) + row[-1:] for row in rows]
