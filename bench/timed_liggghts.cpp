@@ -118,7 +118,7 @@ PairStyles::IGranularPairStyle* make_pair(LAMMPS* lmp, PairGran* parent, int64_t
 
 template <class Style>
 Walls::IGranularWall* make_wall(LAMMPS* lmp, FixWallGran* parent, int64_t hash) {
-  return new Walls::Granular<ContactModel<Style>>(lmp, parent, hash);
+  return vielto::new_wall<Style>(lmp, parent, hash);
 }
 
 // The registries warn about each replacement on standard error; here it is wanted.

@@ -17,8 +17,8 @@ namespace vielto {
 
 class WallMotion : protected LAMMPS_NS::Pointers {
  public:
-  explicit WallMotion(LAMMPS_NS::LAMMPS* lmp)
-      : LAMMPS_NS::Pointers(lmp), mesh_(NULL), step_(-1), stress_(NULL), stressOf_(NULL) {
+  explicit WallMotion(LAMMPS_NS::LAMMPS* program)
+      : LAMMPS_NS::Pointers(program), mesh_(NULL), step_(-1), stress_(NULL), stressOf_(NULL) {
     spin_ = {0, 0, 0};
   }
 

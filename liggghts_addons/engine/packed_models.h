@@ -7,6 +7,7 @@
 #include <type_traits>
 
 #include "engine/packed_law.h"
+#include "engine/packed_wall.h"
 #include "engine/private_access.h"
 
 namespace vielto {
@@ -17,6 +18,11 @@ struct ModelOfPair {
   typedef LIGGGHTS::ContactModels::ContactModel<Style> Model;
   typedef Model LIGGGHTS::PairStyles::Granular<Model>::*type;
 };
+template <class Style>
+struct ModelOfWall {
+  typedef LIGGGHTS::ContactModels::ContactModel<Style> Model;
+  typedef Model LIGGGHTS::Walls::Granular<Model>::*type;
+};
 template <class Style, class Part>
 struct PartOfModel {
   typedef Part LIGGGHTS::ContactModels::ContactModel<Style>::*type;
@@ -25,6 +31,8 @@ struct PartOfModel {
 #define VIELTO_OPEN_MODELS(STYLE)                                                                                \
   template struct Opened<ModelOfPair<STYLE>,                                                                     \
                          &LIGGGHTS::PairStyles::Granular<LIGGGHTS::ContactModels::ContactModel<STYLE>>::cmodel>; \
+  template struct Opened<ModelOfWall<STYLE>,                                                                     \
+                         &LIGGGHTS::Walls::Granular<LIGGGHTS::ContactModels::ContactModel<STYLE>>::cmodel>;      \
   template struct Opened<PartOfModel<STYLE, LIGGGHTS::ContactModels::NormalModel<STYLE::MODEL>>,                 \
                          &LIGGGHTS::ContactModels::ContactModel<STYLE>::normalModel>;                            \
   template struct Opened<PartOfModel<STYLE, LIGGGHTS::ContactModels::CohesionModel<STYLE::COHESION>>,            \
@@ -82,6 +90,34 @@ class PackedModels {
     return model.*Handed<PartOfModel<Style, Part>>::pointer;
   }
 };
+
+// LIGGGHTS' wall with a law that packs.
+template <class Style>
+class WallThatPacks : public LIGGGHTS::Walls::Granular<LIGGGHTS::ContactModels::ContactModel<Style>>,
+                      public PackedWall {
+  typedef LIGGGHTS::Walls::Granular<LIGGGHTS::ContactModels::ContactModel<Style>> Wall;
+  typedef PackedModels<Style> Packed;
+
+ public:
+  WallThatPacks(LAMMPS_NS::LAMMPS* program, LAMMPS_NS::FixWallGran* owner, int64_t hash)
+      : Wall(program, owner, hash), model_(this->*Handed<ModelOfWall<Style>>::pointer) {}
+  PackedStep packed_step() const override { return Packed::step(model_); }
+  int place(int itype, int jtype) const override { return Packed::pairs(model_).place(itype, jtype); }
+  void watch(const LIGGGHTS::ContactModels::SurfacesIntersectData& contact, double diameter) override {
+    Packed::watch(model_, contact, diameter);
+  }
+
+ private:
+  typename ModelOfWall<Style>::Model& model_;
+};
+
+template <class Style>
+LIGGGHTS::Walls::IGranularWall* new_wall(LAMMPS_NS::LAMMPS* program, LAMMPS_NS::FixWallGran* parent, int64_t hash) {
+  if constexpr (PackedModels<Style>::packs)
+    return new WallThatPacks<Style>(program, parent, hash);
+  else
+    return new LIGGGHTS::Walls::Granular<LIGGGHTS::ContactModels::ContactModel<Style>>(program, parent, hash);
+}
 
 }  // namespace vielto
 

@@ -20,6 +20,7 @@
 // clang-format off
 #include "fix_insert_stream.h"
 #include "pair_gran_base.h"
+#include "engine/near_pairs.h"
 #include "engine/packed_law.h"
 #include "engine/packed_models.h"
 #include "engine/private_access.h"
@@ -34,75 +35,18 @@
 
 namespace vielto {
 
-/* Which neighbours of a list may touch: those nearer than a margin when all were looked at last, for as long as no
-   grain has gone, or grown, half of it since. The margin follows the grains' speed so that a look at all comes every 16
-   steps; it changes nothing but the time. */
-class NearPairs {
- public:
-  // Call once a step, before the loop; tells whether this step looks at all.
-  bool begin(const LAMMPS_NS::LAMMPS* lmp, const LAMMPS_NS::NeighList* list) {
-    const LAMMPS_NS::Neighbor* const neighbor = lmp->neighbor;
-    const LAMMPS_NS::Atom* const grains = lmp->atom;
-    const bool renewed =
-        lmp->update->setupflag || build_ != neighbor->lastcall || neighbor->lastcall == lmp->update->ntimestep;
-    build_ = neighbor->lastcall;
-    const std::size_t count = grains->nlocal + grains->nghost;
-    age_++;
-    if (!renewed && count == held_.size()) {
-      double farthest = 0, growth = 0;
-      for (std::size_t i = 0; i < count; i++) {
-        const double* const x = grains->x[i];
-        const Place& h = held_[i];
-        const double dx = x[0] - h.x, dy = x[1] - h.y, dz = x[2] - h.z;
-        farthest = std::max(farthest, dx * dx + dy * dy + dz * dz);
-        growth = std::max(growth, grains->radius[i] - h.radius);
-      }
-      const double nearer = 2 * (sqrt(farthest) + growth);
-      // 1e-9: the margin was compared with rounded distances
-      if (nearer < margin_ * (1 - 1e-9)) return false;
-      margin_ = 16 * nearer / age_;
-    }
-    age_ = 0;
-    held_.resize(count);
-    for (std::size_t i = 0; i < count; i++) {
-      const double* const x = grains->x[i];
-      const Place now = {x[0], x[1], x[2], grains->radius[i]};
-      held_[i] = now;
-    }
-    std::size_t neighbours = 0;
-    for (int ii = 0; ii < list->inum; ii++) neighbours += list->numneigh[list->ilist[ii]];
-    if (near_.size() < neighbours) near_.resize(neighbours);
-    start_.resize(list->inum + 1);
-    return true;
-  }
-  double margin() const { return margin_; }
-  int* near() { return near_.data(); }
-  std::size_t* start() { return start_.data(); }
-
- private:
-  struct Place {
-    double x, y, z, radius;
-  };
-  std::vector<Place> held_;         // at the last look at all
-  std::vector<int> near_;           // positions in the neighbour list of one grain after the other
-  std::vector<std::size_t> start_;  // of a grain's in near_
-  double margin_ = 0;
-  bigint build_ = -1;  // the neighbour list that near_ belongs to
-  int age_ = 0;        // steps since the last look at all
-};
-
 template <class Style>
 class FastPair : public LIGGGHTS::PairStyles::Granular<LIGGGHTS::ContactModels::ContactModel<Style>> {
   typedef LIGGGHTS::ContactModels::ContactModel<Style> Model;
   typedef LIGGGHTS::PairStyles::Granular<Model> General;
-  typedef PackedModels<Style> Models;
+  typedef PackedModels<Style> Packed;
 
  public:
   FastPair(LAMMPS_NS::LAMMPS* program, LAMMPS_NS::PairGran* parent, int64_t hash)
       : General(program, parent, hash),
         program_(program),
         model_(this->*Handed<ModelOfPair<Style>>::pointer),
-        packed_(Models::packs ? packed_law(program) : NULL) {}
+        packed_(Packed::packs ? packed_law(program) : NULL) {}
 
   void compute_force(LAMMPS_NS::PairGran* pg, int eflag, int vflag, int addflag) override {
     const bool plain = !eflag && !vflag && !(pg->cpl() && addflag) && !pg->storeContactForces() &&
@@ -110,10 +54,13 @@ class FastPair : public LIGGGHTS::PairStyles::Granular<LIGGGHTS::ContactModels::
                        pg->listgranhistory && program_->atom->rmass && program_->atom->sphere_flag &&
                        !program_->atom->shapetype_flag &&
                        program_->modify->n_fixes_style("insert/stream/predefined") == 0;
-    if (!plain) return General::compute_force(pg, eflag, vflag, addflag);
+    if (!plain) {
+      nearPairs_.forget();
+      return General::compute_force(pg, eflag, vflag, addflag);
+    }
     pg->evflag = pg->vflag_fdotr = 0;
     const bool step = pg->computeflag() && pg->shearupdate();
-    if constexpr (Models::packs)
+    if constexpr (Packed::packs)
       if (step && packed_ && !tally().energy) return packed_loop(pg);
     if (step)
       loop<true>(pg);
@@ -203,7 +150,7 @@ class FastPair : public LIGGGHTS::PairStyles::Granular<LIGGGHTS::ContactModels::
   // A step of a run, several contacts at once.
   void packed_loop(LAMMPS_NS::PairGran* pg) {
     const std::size_t found = find_touches(pg);
-    PackedStep step = Models::step(model_);
+    PackedStep step = Packed::step(model_);
     step.dt = program_->update->dt;
     step.frozen = pg->freeze_group_bit() != 0;
     for (std::size_t first = 0; first < found; first += Block::size) {
@@ -218,7 +165,7 @@ class FastPair : public LIGGGHTS::PairStyles::Granular<LIGGGHTS::ContactModels::
 
   void fill(LAMMPS_NS::PairGran* pg, const PackedStep& step, const Touch* touches, int count, std::size_t left) {
     LAMMPS_NS::Atom* const grains = program_->atom;
-    const PairTable& table = Models::pairs(model_);
+    const PairTable& table = Packed::pairs(model_);
     const double* const radius = grains->radius;
     const double* const rmass = grains->rmass;
     const double* const body = pg->fr_pair() ? pg->mr_pair() : NULL;
@@ -268,7 +215,7 @@ class FastPair : public LIGGGHTS::PairStyles::Granular<LIGGGHTS::ContactModels::
     const Block& b = block_;
     for (int k = 0; k < count; k++) {
       const Touch& t = touches[k];
-      *t.flags |= Models::flags;
+      *t.flags |= Packed::flags;
       for (int d = 0; d < 3; d++) t.history[s.slidingAt + d] = b.sliding[d][k];
       if (s.rolling) {
         for (int d = 0; d < 3; d++) t.history[s.rollingAt + d] = b.rolling[d][k];
@@ -301,7 +248,7 @@ class FastPair : public LIGGGHTS::PairStyles::Granular<LIGGGHTS::ContactModels::
       c.deltan = block_.overlap[k];
       c.Fn = block_.normal[k];
       const double diameter = smaller_diameter(c);
-      if (tally().overlaps || c.deltan > tally().overlapMax * diameter) Models::watch(model_, c, diameter);
+      if (tally().overlaps || c.deltan > tally().overlapMax * diameter) Packed::watch(model_, c, diameter);
     }
   }
 
@@ -309,40 +256,34 @@ class FastPair : public LIGGGHTS::PairStyles::Granular<LIGGGHTS::ContactModels::
      not broken off at every neighbour that the processor has wrongly guessed to touch. */
   std::size_t find_touches(LAMMPS_NS::PairGran* pg) {
     LAMMPS_NS::NeighList* const list = pg->list;
-    double* const* const x = program_->atom->x;
-    const double* const radius = program_->atom->radius;
+    LAMMPS_NS::NeighList* const histories = pg->listgranhistory;
     const int dnum = pg->dnum();
-    const bool all = nearPairs_.begin(program_, list);
-    const double margin = nearPairs_.margin();
-    int* const near = nearPairs_.near();
-    std::size_t* const start = nearPairs_.start();
-    std::size_t kept = 0, found = 0;
-    for (int ii = 0; ii < list->inum; ii++) {
-      const int i = list->ilist[ii];
-      const int* const neighbours = list->firstneigh[i];
-      int* const flags = pg->listgranhistory->firstneigh[i];
-      double* const histories = pg->listgranhistory->firstdouble[i];
-      const double xi = x[i][0], yi = x[i][1], zi = x[i][2], Ri = radius[i];
-      const std::size_t first = all ? 0 : start[ii], last = all ? list->numneigh[i] : start[ii + 1];
-      if (all) start[ii] = kept;
-      // room for all, so that what touches is counted without a branch
-      if (touches_.size() <= found + (last - first)) touches_.resize(2 * (found + (last - first)) + 1);
-      for (std::size_t k = first; k < last; k++) {
-        const int jj = all ? static_cast<int>(k) : near[k];
-        const int j = neighbours[jj] & NEIGHMASK;
-        const double dx = xi - x[j][0], dy = yi - x[j][1], dz = zi - x[j][2];
-        const double square = dx * dx + dy * dy + dz * dz;
-        const double radii = Ri + radius[j];
-        if (all && square < (radii + margin) * (radii + margin)) near[kept++] = jj;
-        const bool touch = square < radii * radii;
-        if (!touch && flags[jj]) part(flags + jj, histories + dnum * jj);
-        const Touch t = {i, j, dx, dy, dz, square, flags + jj, histories + dnum * jj};
-        touches_[found] = t;
-        found += touch;
+    if (nearPairs_.begin(program_, list))
+      for (int row = 0; row < list->inum; row++) {
+        const int i = list->ilist[row];
+        int* const flags = histories->firstneigh[i];
+        nearPairs_.look(row, i, list->firstneigh[i], list->numneigh[i], flags,
+                        [&](int slot) { part(flags + slot, histories->firstdouble[i] + dnum * slot); });
       }
+    touches_.clear();
+    const std::size_t found = nearPairs_.find(list);
+    for (std::size_t k = 0; k < found; k++) {
+      const NearPairs::Hit& hit = nearPairs_.hit(k);
+      const NearPairs::Near& near = nearPairs_.near(hit.near);
+      const int i = list->ilist[hit.row], j = near.grain;
+      const Place &one = nearPairs_.place(i), &two = nearPairs_.place(j);
+      const double dx = one.x - two.x, dy = one.y - two.y, dz = one.z - two.z;
+      const double square = dx * dx + dy * dy + dz * dz, radii = one.radius + two.radius;
+      int* const flags = histories->firstneigh[i] + near.slot;
+      double* const history = histories->firstdouble[i] + dnum * near.slot;
+      const bool touch = square < radii * radii;
+      nearPairs_.touches(hit.near, touch);
+      if (touch)
+        touches_.push_back({i, j, dx, dy, dz, square, flags, history});
+      else
+        part(flags, history);
     }
-    if (all) start[list->inum] = kept;
-    return found;
+    return touches_.size();
   }
 
   static VIELTO_INLINE void add(double factor, const LIGGGHTS::ContactModels::ForceData& forces, double* f,
@@ -367,7 +308,7 @@ class FastPair : public LIGGGHTS::PairStyles::Granular<LIGGGHTS::ContactModels::
   const PackedLaw* packed_;  // NULL: contacts one by one
   NearPairs nearPairs_;
   std::vector<Touch> touches_;
-  Block block_;
+  Block block_ = Block();
 };
 
 }  // namespace vielto

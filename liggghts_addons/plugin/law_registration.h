@@ -60,7 +60,7 @@ LIGGGHTS::PairStyles::IGranularPairStyle* make_pair(LAMMPS_NS::LAMMPS* lmp, LAMM
 template <class Style>
 LIGGGHTS::Walls::IGranularWall* make_wall(LAMMPS_NS::LAMMPS* lmp, LAMMPS_NS::FixWallGran* parent, int64_t hash) {
   install(lmp);
-  return new LIGGGHTS::Walls::Granular<ContactModel<Style>>(lmp, parent, hash);
+  return new_wall<Style>(lmp, parent, hash);
 }
 
 template <class Style, class PairStyle>

@@ -113,6 +113,24 @@ INSTANTIATE_TEST_SUITE_P(
         Setting{"TwoRanks", vielto_models, bed_settings, "", {Material(), stiffer()}, 2}),
     [](const auto& one) { return one.param.name; });
 
+/* The wall loop, which looks at the grains near a mesh only, and LIGGGHTS' own, which it leaves a wall to that stores
+   its contact forces: a floor that turns about a point off its middle, so that its edges sweep under the grains at 2
+   m/s. */
+TEST(WallLoop, GivesTheNumbersOfLiggghts) {
+  std::string states[2];
+  for (const bool general : {false, true}) {
+    Liggghts run;
+    run.script = bed(run, {"", vielto_models, bed_settings, "", {Material(), stiffer()}, 1});
+    if (general) replace(run.script, "meshes floor", "meshes floor store_force_contact yes");
+    replace(run.script, "rotate origin 0 0 0 axis 0 0 1 period 1", "rotate origin 0.01 0.01 0 axis 0 0 1 period 0.2");
+    run.write("floor.stl", plate_stl(0.045));
+    run.must();
+    states[general] = run.read("state") + run.read("wall") + run.read("torque.csv");
+  }
+  EXPECT_GT(states[0].size(), 10000u);
+  EXPECT_TRUE(states[0] == states[1]);
+}
+
 // The step, the grains and the place of a stop at the overlap limit.
 TEST(PackedStop, SaysWhatContactsOneByOneSay) {
   const auto text = [&](const std::string& lanes) {
