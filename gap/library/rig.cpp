@@ -74,7 +74,7 @@ std::string changed_file(const nlohmann::json& run, const std::map<std::string, 
   const auto hashes = run.find("hashes");
   if (hashes == run.end()) return "";
   for (const auto& [name, hash] : hashes->items()) {
-    const auto now = hash_of.find(name);
+    const auto now = hash_of.find(fs::path(name).filename().string());
     if (now != hash_of.end() && now->second != hash) return name;
   }
   return "";

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "script/command_line.h"
 
-#include <stdlib.h>
-
-#include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <sstream>
+
+#include "core/par_range.h"
 
 namespace vielto {
 
@@ -27,10 +27,16 @@ std::vector<std::string> names_on_command_line() {
   return names;
 }
 
-bool is_number(const std::string& text) {
-  char* end = nullptr;
-  return !text.empty() && std::isfinite(strtod(text.c_str(), &end)) && *end == '\0';
+std::string script_on_command_line() {
+  std::ifstream in("/proc/self/cmdline", std::ios::binary);
+  for (std::string word; std::getline(in, word, '\0');)
+    if ((word == "-in" || word == "-i") && std::getline(in, word, '\0')) return word;
+  const std::filesystem::path input = "/proc/self/fd/0";
+  std::error_code none;
+  return std::filesystem::is_regular_file(input, none) ? std::filesystem::read_symlink(input).string() : "";
 }
+
+bool is_number(const std::string& text) { return parameter_number(text).has_value(); }
 
 std::vector<std::string> choices(const std::string& unit) {
   if (unit.find(" or ") == std::string::npos) return {};

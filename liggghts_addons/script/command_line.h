@@ -14,6 +14,9 @@ std::string command_line();
 // Names given with -var (or -v).
 std::vector<std::string> names_on_command_line();
 
+// The input script: after -in (or -i), or the file on the standard input; empty if there is none.
+std::string script_on_command_line();
+
 bool is_number(const std::string& text);
 
 // The words a parameter may take, from its unit field: "off or on", "uniform, alternating or mirrored".

@@ -20,89 +20,28 @@
 #include "atom.h"
 #include "comm.h"
 #include "core/bad_input.h"
-#include "core/par_file.h"
 #include "engine/critical_time.h"
 #include "engine/law.h"
 #include "error.h"
 #include "force.h"
 #include "input.h"
 #include "script/clump.h"
-#include "script/command_line.h"
 #include "script/law_command.h"
+#include "script/run_folder.h"
+#include "script/setup.h"
 #include "universe.h"
 #include "variable.h"
 #include "vielto_state.h"
 #include "vielto_stop.h"
 
 using namespace LAMMPS_NS;
-using vielto::choices;
-using vielto::command_line;
-using vielto::is_number;
-using vielto::names_on_command_line;
-namespace fs = std::filesystem;
 
 namespace {
-
-// sha256sum is in every Debian system; a hash needs no code of ours
-std::string sha256(const std::string& path) {
-  FILE* pipe = popen(("sha256sum -- '" + path + "' 2>/dev/null").c_str(), "r");
-  if (!pipe) return "";
-  std::array<char, 128> buffer = {};
-  const bool got = fgets(buffer.data(), static_cast<int>(buffer.size()), pipe) != nullptr;
-  pclose(pipe);
-  const std::string line = got ? buffer.data() : "";
-  return line.substr(0, line.find(' '));
-}
 
 std::string joined(int narg, char** arg, int from) {
   std::string line;
   for (int i = from; i < narg; i++) line += (i > from ? " " : "") + std::string(arg[i]);
   return line;
-}
-
-// Step in the name of a restart file, N.restart; -1 for another file.
-long long step_of(const fs::path& file) {
-  const std::string name = file.stem().string();
-  if (file.extension() != ".restart" || name.empty() || name.find_first_not_of("0123456789") != std::string::npos)
-    return -1;
-  return atoll(name.c_str());
-}
-
-// Step of the last whole row of the record in a run folder (torque.csv, shear.csv); 0 if there is none.
-long long last_step(const fs::path& partial) {
-  std::ifstream in(partial / (fs::exists(partial / "shear.csv") ? "shear.csv" : "torque.csv"));
-  long long step = 0;
-  for (std::string line; std::getline(in, line) && !in.eof();)
-    if (!line.empty() && line[0] >= '0' && line[0] <= '9') step = atoll(line.c_str());
-  return step;
-}
-
-/* The last restart file that is surely whole: the run went on after it and wrote a row. One that was being written when
-   the run was broken off is left alone. */
-std::string newest_restart(const fs::path& partial) {
-  const long long end = last_step(partial);
-  fs::path newest;
-  if (!fs::exists(partial / "restart")) return "";
-  for (const auto& entry : fs::directory_iterator(partial / "restart"))
-    if (step_of(entry.path()) < end && step_of(entry.path()) > step_of(newest)) newest = entry.path();
-  return newest.string();
-}
-
-// A complete run keeps its last restart file.
-void remove_older_restarts(const fs::path& partial) {
-  std::vector<fs::path> files;
-  if (!fs::exists(partial / "restart")) return;
-  for (const auto& entry : fs::directory_iterator(partial / "restart"))
-    if (step_of(entry.path()) >= 0) files.push_back(entry.path());
-  std::sort(files.begin(), files.end(), [](const auto& a, const auto& b) { return step_of(a) < step_of(b); });
-  if (!files.empty()) files.pop_back();
-  for (const fs::path& file : files) fs::remove(file);
-}
-
-void write_json(const fs::path& path, const nlohmann::json& content) {
-  const fs::path partial = path.string() + ".partial";
-  std::ofstream(partial) << content.dump(2) << '\n';
-  fs::rename(partial, path);
 }
 
 }  // namespace
@@ -113,10 +52,8 @@ void ViEltoCommand::command(int narg, char** arg) {
     vielto::stop_all(lmp, joined(narg, arg, 1).c_str());
   else if (what == "half_period" && narg == 6)
     half_period(narg, arg);
-  else if (what == "shell" && narg > 1)
-    shell(narg, arg);
-  else if (what == "prime" && narg == 3)
-    prime(narg, arg);
+  else if (what == "repeat" && narg > 2)
+    repeat(narg, arg);
   else if (what == "words" && narg > 2)
     set_variable(arg[1], joined(narg, arg, 2).c_str());
   else if (what == "property" && narg == 4)
@@ -125,26 +62,18 @@ void ViEltoCommand::command(int narg, char** arg) {
     pair_property(narg, arg);
   else if (what == "law")
     vielto::LawCommand(lmp).command(narg, arg);
-  else if (what == "check" && narg > 1)
-    check(narg, arg);
-  else if (what == "provisional" && narg > 2)
-    provisional(narg, arg);
   else if (what == "clump" && narg == 8)
     clump(narg, arg);
-  else if (what == "resume" && narg == 3)
-    resume(narg, arg);
-  else if (what == "bed" && narg > 3)
-    bed(narg, arg);
   else if (what == "grains" && narg > 1 && narg % 2 == 0)
     grains(narg, arg);
-  else if (what == "open" && narg > 2)
-    open(narg, arg);
+  else if (what == "setup" && narg > 1)
+    setup(narg, arg);
   else if (what == "close" && narg == 2)
     close(narg, arg);
   else
     vielto::stop_all(lmp,
-                     "vielto: unknown form of this command; use error, half_period, shell, prime, words, property, "
-                     "pair_property, law, check, provisional, clump, grains, open, resume, bed or close");
+                     "vielto: unknown form of this command; use setup, error, half_period, words, repeat, property, "
+                     "pair_property, law, clump, grains or close");
 }
 
 void ViEltoCommand::half_period(int, char** arg) {
@@ -175,27 +104,6 @@ void ViEltoCommand::stop_if(const std::string& faultOnRankZero) {
   vielto::stop_all(lmp, fault.c_str());
 }
 
-void ViEltoCommand::shell(int narg, char** arg) {
-  const std::string line = joined(narg, arg, 1);
-  std::string fault;
-  if (comm->me == 0 && system(line.c_str()) != 0)
-    fault = "vielto: '" + std::string(arg[1]) + (narg > 2 ? std::string(" ") + arg[2] : "") +
-            "' failed; its own line stands above";
-  stop_if(fault);
-}
-
-void ViEltoCommand::prime(int, char** arg) {
-  const int k = force->inumeric(FLERR, arg[2]);
-  if (k < 1 || k > 10000) vielto::stop_all(lmp, "vielto: seeds are numbers from 1 to 10000");
-  int candidate = 10000;
-  for (int found = 0; found < k;) {
-    bool isPrime = ++candidate > 1;
-    for (int d = 2; d * d <= candidate && isPrime; d++) isPrime = candidate % d != 0;
-    found += isPrime;
-  }
-  set_variable(arg[1], std::to_string(candidate).c_str());
-}
-
 void ViEltoCommand::property(int, char** arg) {
   const std::string name = arg[1], grain = arg[2], wall = arg[3];
   if (atom->ntypes < 2 || atom->ntypes > 3)
@@ -214,41 +122,6 @@ void ViEltoCommand::pair_property(int, char** arg) {
   for (int i = 1; i <= atom->ntypes; i++)
     for (int j = 1; j <= atom->ntypes; j++) line += " " + (i == 2 || j == 2 ? wall : grain);
   input->one(line.c_str());
-}
-
-void ViEltoCommand::check(int narg, char** arg) {
-  std::string fault;
-  if (comm->me == 0) try {
-      const vielto::ParFile file = vielto::ParFile::read(arg[1]);
-      for (int i = 3; i < narg; i++) file.number(arg[i]);
-      for (const vielto::Parameter& p : file.all())
-        for (std::string name : {p.name, "wall_" + p.name}) {
-          const char* now = input->variable->retrieve(&name[0]);
-          if (!now || !fault.empty()) continue;
-          const std::vector<std::string> words = choices(p.unit);
-          const bool good = words.empty() ? !is_number(p.value) || is_number(now)
-                                          : std::find(words.begin(), words.end(), now) != words.end();
-          if (!good)
-            fault = "vielto: " + name + " is '" + now + "'; give " +
-                    (words.empty() ? "a number (" + p.unit + ")" : p.unit) + " with -var " + name;
-        }
-    } catch (const vielto::BadInput& e) {
-      fault = std::string("vielto: ") + e.what();
-    }
-  stop_if(fault);
-}
-
-void ViEltoCommand::provisional(int narg, char** arg) {
-  int found = 0;
-  std::string fault;
-  if (comm->me == 0) try {
-      for (int i = 2; i < narg; i++) found = found || vielto::ParFile::read(arg[i]).provisional();
-    } catch (const vielto::BadInput& e) {
-      fault = std::string("vielto: ") + e.what();
-    }
-  stop_if(fault);
-  MPI_Bcast(&found, 1, MPI_INT, 0, world);
-  set_variable(arg[1], found ? "1" : "0");
 }
 
 void ViEltoCommand::clump(int, char** arg) {
@@ -326,136 +199,69 @@ void ViEltoCommand::grains(int narg, char** arg) {
   stop_if(fault);
 }
 
-void ViEltoCommand::open(int narg, char** arg) {
-  const fs::path folder = arg[1];
-  const fs::path partial = folder.string() + ".partial";
-  std::string fault;
-  if (comm->me == 0) {
-    std::error_code code;
-    if (fs::exists(folder)) {
-      fault =
-          "vielto: the run folder " + folder.string() + " is there already; remove it or name another with -var run";
-    } else {
-      nlohmann::json run = {{"schema", 1},
-                            {"status", "running"},
-                            {"command", command_line()},
-                            {"ranks", comm->nprocs},
-                            {"versions", {{"vielto", VIELTO_VERSION}, {"liggghts", universe->version}}}};
-      bool parameters = false;
-      std::set<std::string> known;
-      for (int i = 2; i < narg && fault.empty(); i++) {
-        const std::string word = arg[i];
-        if (word == "parameters" || word == "inputs") {
-          parameters = word == "parameters";
-          continue;
-        }
-        if (!fs::exists(word)) fault = "vielto: input file " + word + " is missing";
-        run["hashes"][fs::path(word).filename().string()] = sha256(word);
-        if (!parameters || !fault.empty()) continue;
-        // the wall's card has the names of the grain's; its values stand under wall_NAME
-        const vielto::ParFile file = vielto::ParFile::read(word);
-        for (const vielto::Parameter& p : file.all())
-          for (std::string name : {p.name, "wall_" + p.name}) {
-            known.insert(name);
-            if (const char* value = input->variable->retrieve(&name[0])) run["parameters"][name] = value;
-          }
-      }
-      for (const vielto::Law& law : vielto::laws())
-        for (const vielto::LawParameter& p : law.parameters) {
-          std::string name = p.rule.name;
-          known.insert(name);
-          if (const char* value = input->variable->retrieve(&name[0])) run["parameters"][name] = value;
-        }
-      for (const std::string& name : names_on_command_line())
-        if (fault.empty() && !known.count(name))
-          fault =
-              "vielto: -var " + name + ": there is no such parameter; see " + arg[3] + " and the cards for the names";
-      if (fault.empty()) {
-        fs::remove_all(partial, code);
-        if (!fs::create_directories(partial, code))
-          fault = "vielto: cannot make the run folder " + partial.string() + "; check the path and its permissions";
-        else
-          write_json(partial / "run.json", run);
-      }
-    }
-  }
-  stop_if(fault);
-}
-
-// Throws if a run was made with other parameters than those that hold now.
-void ViEltoCommand::same_parameters(const nlohmann::json& run, const std::set<std::string>& apart) {
-  for (const auto& [key, value] : run.at("parameters").items()) {
-    std::string name = key;
-    const char* now = input->variable->retrieve(&name[0]);
-    if (now && !apart.count(key) && value.get<std::string>() != now)
-      throw std::runtime_error("it was started with " + key + " " + value.get<std::string>() + ", not " + now);
-  }
-}
-
-// The text that processor 0 has, as a variable on all of them.
-void ViEltoCommand::share_variable(char* name, std::string text) {
-  int length = static_cast<int>(text.size());
-  MPI_Bcast(&length, 1, MPI_INT, 0, world);
-  text.resize(length);
-  MPI_Bcast(&text[0], length, MPI_CHAR, 0, world);
-  set_variable(name, text.c_str());
-}
-
-void ViEltoCommand::resume(int, char** arg) {
-  const fs::path partial = std::string(arg[1]) + ".partial";
-  std::string fault, newest;
-  if (comm->me == 0) {
-    try {
-      std::ifstream in(partial / "run.json");
-      if (!in) throw std::runtime_error("it does not exist");
-      if (!fs::exists(partial / "mesh" / "geometry.par")) throw std::runtime_error("mesh/geometry.par is missing");
-      same_parameters(nlohmann::json::parse(in), {"resume", "run"});
-      newest = newest_restart(partial);
-      if (newest.empty()) throw std::runtime_error("it was broken off before the first restart file was complete");
-    } catch (const std::exception& e) {
-      fault = "vielto: cannot resume " + partial.string() + ": " + e.what() + "; start anew without -var resume";
-    }
-  }
-  stop_if(fault);
-  share_variable(arg[2], newest);
-}
-
-void ViEltoCommand::bed(int narg, char** arg) {
-  const std::string folder = arg[1];
-  std::string fault, file;
-  if (comm->me == 0 && folder != "none") {
-    try {
-      std::ifstream in(fs::path(folder) / "run.json");
-      if (!in) throw std::runtime_error("it is no complete run folder");
-      std::set<std::string> apart(arg + 4, arg + narg);
-      apart.insert({"run", "resume", "bed"});
-      same_parameters(nlohmann::json::parse(in), apart);
-      file = (fs::path(folder) / "bed.restart").string();
-      if (!fs::exists(file)) throw std::runtime_error("bed.restart is missing");
-    } catch (const std::exception& e) {
-      fault = "vielto: cannot take the bed of " + folder + ": " + e.what() +
-              "; name a run of the same bed with -var bed, or none";
-    }
-  }
-  stop_if(fault);
-  set_variable(arg[2], folder == "none" ? "0" : "1");
-  share_variable(arg[3], file);
-}
-
 void ViEltoCommand::close(int, char** arg) {
   MPI_Barrier(world);
-  if (comm->me == 0) {
-    const fs::path folder = arg[1], partial = folder.string() + ".partial";
-    try {
-      std::ifstream in(partial / "run.json");
-      nlohmann::json run = nlohmann::json::parse(in);
-      run["status"] = "complete";
-      remove_older_restarts(partial);
-      write_json(partial / "run.json", run);
-      fs::rename(partial, folder);
+  std::string fault;
+  if (comm->me == 0) try {
+      vielto::RunFolder(arg[1]).close();
     } catch (const std::exception& e) {
-      vielto::stop_here(lmp, ("vielto: cannot complete the run folder " + folder.string() + ": " + e.what()).c_str());
+      fault = std::string("vielto: ") + e.what();
     }
+  stop_if(fault);
+}
+
+void ViEltoCommand::repeat(int, char** arg) {
+  const int times = force->inumeric(FLERR, arg[1]);
+  const std::string command = arg[2];  // LIGGGHTS takes its words away as it reads another line
+  for (int i = 1; i <= times; i++) {
+    std::string line = command;
+    for (std::size_t at = 0; (at = line.find('%', at)) != std::string::npos;) line.replace(at, 1, std::to_string(i));
+    input->one(line.c_str());
   }
-  MPI_Barrier(world);
+}
+
+void ViEltoCommand::setup(int narg, char** arg) {
+  const auto given = [this](std::string name) -> std::optional<std::string> {
+    const char* value = input->variable->retrieve(&name[0]);
+    return value ? std::optional<std::string>(value) : std::nullopt;
+  };
+  std::string fault, log;
+  std::vector<std::string> names;  // name, value, name, value ...: index variables, an empty name, the others
+  if (comm->me == 0) try {
+      vielto::RunSetup setup(std::vector<std::string>(arg + 1, arg + narg), given);
+      setup.run(comm->nprocs, universe->version);
+      for (const auto& [name, value] : setup.index) names.insert(names.end(), {name, value});
+      names.insert(names.end(), {"", ""});
+      for (const auto& [name, value] : setup.strings) names.insert(names.end(), {name, value});
+      names.insert(names.end(), {"log", setup.log()});
+    } catch (const std::exception& e) {
+      fault = std::string("vielto: ") + e.what();
+    }
+  stop_if(fault);
+  share(names);
+  std::string style = "index";
+  for (std::size_t k = 0; k + 2 < names.size(); k += 2) {
+    if (names[k].empty()) {
+      style = "string";
+      continue;
+    }
+    char* set[3] = {&names[k][0], &style[0], &names[k + 1][0]};
+    input->variable->set(3, set);
+  }
+  input->one(names.back().c_str());
+  std::string work = "work";
+  input->one((std::string("include ") + input->variable->retrieve(&work[0]) + "/mesh/geometry.par").c_str());
+}
+
+// The texts that processor 0 has, on all of them.
+void ViEltoCommand::share(std::vector<std::string>& texts) {
+  std::string all;
+  for (const std::string& text : texts) all += text + '\0';
+  int length = static_cast<int>(all.size());
+  MPI_Bcast(&length, 1, MPI_INT, 0, world);
+  all.resize(length);
+  MPI_Bcast(&all[0], length, MPI_CHAR, 0, world);
+  texts.clear();
+  std::istringstream in(all);
+  for (std::string text; std::getline(in, text, '\0');) texts.push_back(text);
 }

@@ -1,41 +1,45 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+// clang-format off
 /* Script command `vielto`, for what an input script cannot say in LIGGGHTS' own words:
 
+     vielto setup F1 F2 ... [NAME=VALUE ...] [when P WORD NAME=VALUE ... NAME==VALUE ...] [bed P1 P2 ...]
+         everything before the first particle. Reads the parameter files F (the rig's own first) and the cards of grain and wall
+         (run_parameters.h), takes -var instead of their values and checks all of them; opens the run folder `run` with run.json
+         (run_folder.h), or takes up the one broken off (resume yes); makes the meshes in it (vielto geometry) and includes
+         their geometry.par; logs into it. Any fault stops the run before that.
+         NAME=VALUE sets a parameter unless -var does, or another variable (NAMEFile: an input of the run); {P} in VALUE is
+         parameter P; after `when` only if parameter P is WORD. NAME==VALUE stops a run in which NAME is another. A run with -var bed FOLDER takes the bed of a complete one
+         with the same parameters but for P1 P2 ...
+         Variables: every parameter; P_is_WORD, 1 or 0, for each word a parameter may be; work (the folder while it runs);
+         provisional (1: a card says so); resuming, restarting (1: from restartFile); seed1 ... seed9, prime numbers from `seed`
+     vielto close FOLDER                       mark run.json complete, keep the last restart file only and rename
+                                               FOLDER.partial to FOLDER
      vielto error TEXT...                      stop the run with this line (exit status 1)
      vielto half_period NAME radius R density RHO
-                                               set variable NAME to the shortest half period of a contact, s, for grains
-   of this radius (m) and density (kg/m3); needs the pair_style line and properties vielto shell COMMAND... run a
-   program; stop if it fails (LIGGGHTS' own shell does not look) vielto prime NAME K                       set variable
-   NAME to the K-th prime over 10000, as LIGGGHTS wants its seeds vielto words NAME W1 W2 ...               set variable
-   NAME to these words (quoted text is not substituted by LIGGGHTS) vielto property NAME GRAIN WALL           fix NAME
-   all property/global NAME peratomtype GRAIN WALL, with GRAIN again for a third type (fixed grains) vielto
-   pair_property NAME GRAIN WALL      the same for a peratomtypepair: of grain on grain and of grain on wall
+                                               set variable NAME to the shortest half period of a contact, s, for grains of this
+                                               radius (m) and density (kg/m3); needs the pair_style line and properties
+     vielto words NAME W1 W2 ...               set variable NAME to these words (quoted text is not substituted by LIGGGHTS)
+     vielto repeat N "COMMAND"                 N times this command, with 1 ... N for % in it
+     vielto property NAME GRAIN WALL           fix NAME all property/global NAME peratomtype GRAIN WALL, with GRAIN again for
+                                               a third type (fixed grains)
+     vielto pair_property NAME GRAIN WALL      the same for a peratomtypepair: of grain on grain and of grain on wall
      vielto law ...                            the rigs' contact law (law_command.h)
-     vielto check FILE [needs N1 N2 ...]       stop if the parameter file cannot be read, lacks one of these numbers, or
-   if one of its parameters (or wall_PARAMETER) has been given a value of another kind: no number where it states one,
-   none of the words its unit field allows (A, B or C) vielto provisional NAME F1 F2 ...         set variable NAME to 1
-   if a card's first line calls it provisional, else to 0 vielto clump NAME FILE OUT diameter D density RHO read the
-   spheres of FILE (vielto_clump.h), write them to OUT about their centre of mass and with the volume of a sphere of
-   diameter D (m); set variable NAME to the words of particletemplate/multisphere for them (nspheres ... use_density),
-   NAMERadius to the smallest radius (m), NAMESpheres to their number vielto grains FILE [KEY VALUE ...]        write
-   x_m,y_m,z_m,radius_m of every grain of type 1, in the order of their numbers, under lines # KEY=VALUE vielto open
-   FOLDER parameters F1 F2 ... inputs G1 G2 ... make FOLDER.partial with run.json: the present values of all parameters
-   stated in the files F (and wall_PARAMETER), hashes of all files F and G, versions, command line; a -var that is none
-   of these parameters stops the run vielto resume FOLDER NAME                 take up FOLDER.partial, broken off
-   earlier with the same parameters: set variable NAME to its last restart file (restart/STEP.restart) vielto bed FOLDER
-   TAKEN NAME P1 P2 ...    set variable TAKEN to 0 if FOLDER is none; else to 1 and variable NAME to FOLDER/bed.restart,
-                                               the bed of a complete run with the same parameters but for P1 P2 ...
-     vielto close FOLDER                       mark run.json complete, keep the last restart file only and rename
-                                               FOLDER.partial to FOLDER */
+     vielto clump NAME FILE OUT diameter D density RHO
+                                               read the spheres of FILE (clump.h), write them to OUT about their centre of mass
+                                               and with the volume of a sphere of diameter D (m); set variable NAME to the words
+                                               of particletemplate/multisphere for them (nspheres ... use_density), NAMERadius
+                                               to the smallest radius (m), NAMESpheres to their number
+     vielto grains FILE [KEY VALUE ...]        write x_m,y_m,z_m,radius_m of every grain of type 1, in the order of their
+                                               numbers, under lines # KEY=VALUE */
+// clang-format on
 #ifdef COMMAND_CLASS
 CommandStyle(vielto, ViEltoCommand)
 #else
 #ifndef LMP_VIELTO_COMMAND_H
 #define LMP_VIELTO_COMMAND_H
 
-#include <nlohmann/json.hpp>
-#include <set>
 #include <string>
+#include <vector>
 
 #include "pointers.h"
 
@@ -48,21 +52,15 @@ class ViEltoCommand : protected Pointers {
 
  private:
   void half_period(int narg, char** arg);
-  void shell(int narg, char** arg);
-  void prime(int narg, char** arg);
   void property(int narg, char** arg);
   void pair_property(int narg, char** arg);
-  void check(int narg, char** arg);
-  void provisional(int narg, char** arg);
   void clump(int narg, char** arg);
   void set_variable(char* name, const char* value);
   void stop_if(const std::string& faultOnRankZero);
   void grains(int narg, char** arg);
-  void open(int narg, char** arg);
-  void resume(int narg, char** arg);
-  void bed(int narg, char** arg);
-  void same_parameters(const nlohmann::json& run, const std::set<std::string>& apart);
-  void share_variable(char* name, std::string text);
+  void setup(int narg, char** arg);
+  void repeat(int narg, char** arg);
+  void share(std::vector<std::string>& texts);
   void close(int narg, char** arg);
 };
 

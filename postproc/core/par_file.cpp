@@ -7,8 +7,10 @@
 #include <cstdlib>
 #include <fstream>
 #include <sstream>
+#include <stdexcept>
 
 #include "core/bad_input.h"
+#include "core/par_range.h"
 
 namespace vielto {
 namespace {
@@ -18,6 +20,22 @@ std::string trimmed(const std::string& text) {
   if (first == std::string::npos) return "";
   const auto last = text.find_last_not_of(" \t\r");
   return text.substr(first, last - first + 1);
+}
+
+// unit | range | u | source; three fields have no range, and words to choose from stood in the unit's place.
+void read_fields(const std::string& comment, Parameter& p) {
+  std::vector<std::string> fields;
+  std::istringstream in(comment);
+  for (std::string field; std::getline(in, field, '|');) fields.push_back(trimmed(field));
+  const bool ranged = fields.size() > 3;
+  std::string* const targets[] = {&p.unit, &p.range, &p.u, &p.source};
+  std::size_t k = 0;
+  for (std::string* target : targets)
+    if ((ranged || target != &p.range) && k < fields.size()) *target = fields[k++];
+  if (!ranged && p.unit.find(" or ") != std::string::npos) {
+    p.range = p.unit;
+    p.unit = "-";
+  }
 }
 
 }  // namespace
@@ -44,12 +62,13 @@ ParFile ParFile::read(const std::string& path) {
     p.line = number;
     if (keyword != "variable" || style != "index" || p.value.empty())
       throw BadInput(path, number, fmt::format("'{}' is not a parameter", code),
-                     "write 'variable NAME index VALUE # unit | u | source'");
-    std::istringstream fields(comment);
-    std::string* targets[] = {&p.unit, &p.u, &p.source};
-    for (std::string* target : targets) {
-      std::string field;
-      if (std::getline(fields, field, target == &p.source ? '\n' : '|')) *target = trimmed(field);
+                     "write 'variable NAME index VALUE # unit | range | u | source'");
+    read_fields(comment, p);
+    try {
+      ParRange::parse(p.range);
+    } catch (const std::invalid_argument&) {
+      throw BadInput(path, number, fmt::format("'{}' is no range of '{}'", p.range, p.name),
+                     "write for example '> 0', '0 to 0.5', 'whole >= 1', 'off or on' or '-', or leave the field out");
     }
     if (!file.index_.emplace(p.name, file.parameters_.size()).second)
       throw BadInput(path, number, fmt::format("'{}' is stated twice", p.name), "keep one of the two lines");
@@ -71,7 +90,7 @@ const Parameter& ParFile::find(const std::string& name) const {
   const auto found = index_.find(name);
   if (found == index_.end())
     throw BadInput(path_, 0, fmt::format("'{}' is missing", name),
-                   fmt::format("add 'variable {} index VALUE # unit | u | source'", name));
+                   fmt::format("add 'variable {} index VALUE # unit | range | u | source'", name));
   return parameters_[found->second];
 }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Parameter files (`*.par`): LIGGGHTS include files of lines
-//   variable NAME index VALUE # unit | standard uncertainty | source
-// read here too, so that a number is stated in one place. Other lines that LIGGGHTS understands
-// (blank lines, comments) are skipped; anything else is refused.
+//   variable NAME index VALUE # unit | range | standard uncertainty | source
+// read here too, so that a number is stated in one place. The range is that of par_range.h; a line of three fields has
+// none. Other lines that LIGGGHTS understands (blank lines, comments) are skipped; anything else is refused.
 #pragma once
 
 #include <map>
@@ -15,6 +15,7 @@ struct Parameter {
   std::string name;
   std::string value;
   std::string unit;
+  std::string range;
   std::string u;
   std::string source;
   int line = 0;
@@ -22,7 +23,7 @@ struct Parameter {
 
 class ParFile {
  public:
-  // Errors: BadInput for a missing file, a line of another form, or a name stated twice.
+  // Errors: BadInput for a missing file, a line of another form, a range that is none, or a name stated twice.
   static ParFile read(const std::string& path);
 
   const std::string& path() const { return path_; }
@@ -34,6 +35,8 @@ class ParFile {
   // A value stated elsewhere (the command line's `-var`) wins over the file, as in LIGGGHTS.
   void override_value(const std::string& name, const std::string& value);
 
+  // Errors: BadInput if the name is missing.
+  const Parameter& find(const std::string& name) const;
   // Errors: BadInput if the name is missing or the value is not a finite number.
   double number(const std::string& name) const;
   double number_or(const std::string& name, double fallback) const;
@@ -41,8 +44,6 @@ class ParFile {
   const std::string& text(const std::string& name) const;
 
  private:
-  const Parameter& find(const std::string& name) const;
-
   std::string path_;
   bool provisional_ = false;
   std::vector<Parameter> parameters_;

@@ -90,7 +90,7 @@ TEST(MixerFilling, HasTheMassAskedForAndTheSizesOfTheNormalDistribution) {
 // The mixer's case, to be changed, in the folder of the test.
 void copy_case(const Mixer& mixer) {
   for (const char* part : {"mixer", "laws"}) fs::copy(fs::path(VIELTO_SOURCE_DIR "/cases") / part, mixer.folder / part);
-  for (const char* file : {"law.par", "law.in", "drag.in", "checks.in"})
+  for (const char* file : {"law.par", "card.par", "law.in", "drag.in", "engine.in"})
     fs::copy(fs::path(VIELTO_SOURCE_DIR "/cases") / file, mixer.folder);
 }
 
@@ -316,9 +316,10 @@ TEST(MixerRun, FolderStatesParametersAndInputs) {
       steel.find("variable frictionAngle index " + run["parameters"]["wall_frictionAngle"].get<std::string>() + " "),
       std::string::npos);
   EXPECT_EQ(run["parameters"]["seed"], "1");
-  for (const char* file :
-       {"in.mixer", "mixer.par", "law.par", "law.in", "vielto.in", "materials.in", "hulled_millet.par", "steel.par"})
-    EXPECT_EQ(run["hashes"][file].get<std::string>().size(), 64u) << file;
+  for (const char* file : {"in.mixer", "mixer.par", "../law.par", "../card.par", "../engine.in", "../law.in",
+                           "../drag.in", "../../materials/hulled_millet.par", "../../materials/steel.par"})
+    EXPECT_EQ(run["hashes"].value(file, "").size(), 64u) << file;
+  EXPECT_EQ(run["hashes"].size(), 9u) << run["hashes"];
   EXPECT_NE(run["command"].get<std::string>().find("-in in.mixer"), std::string::npos);
   EXPECT_EQ(run["versions"].size(), 2u);
 }

@@ -67,11 +67,9 @@ def _other_file(point, made, now):
 
 
 def _file_of(name, rig):
-    """The repository's file of a run's hash, by its name: the rig's own before what rigs share."""
-    for folder in (f"cases/{rig}", "cases", "cases/laws", "cases/mixer", "materials"):
-        if (ROOT / folder / name).exists():
-            return ROOT / folder / name
-    return None
+    """The repository's file of a run's hash: run.json has its path from the rig's folder."""
+    path = (ROOT / "cases" / rig / name).resolve()
+    return path if path.exists() and path.is_relative_to(ROOT) else None
 
 
 def forget(out, run):

@@ -216,7 +216,11 @@ RigGeometry mixer_geometry(GeometryInput& input) {
 
   const double volume =
       -measure(triangulate(joined({drum.walls, drum.lid, drum.ends}))).volume;  // the normals point inward
-  const double outline = m.length * (kPi * m.drum_radius * m.drum_radius / 2 + 2 * m.drum_radius * m.drum_top);
+  const double section = kPi * m.drum_radius * m.drum_radius / 2 + 2 * m.drum_radius * m.drum_top;
+  const double outline = m.length * section;
+  const int meshes = m.periodic ? m.paddles : 1;
+  std::string list = "paddle1";
+  for (int i = 2; i <= meshes; ++i) list += fmt::format(" paddle{}", i);
   g.derived = {{"sliceLength", fmt::format("{:.12g}", m.length)},
                {"rotorTipRadius", fmt::format("{:.12g}", tip_radius)},
                {"drumRadius", fmt::format("{:.12g}", m.drum_radius)},
@@ -224,9 +228,11 @@ RigGeometry mixer_geometry(GeometryInput& input) {
                {"meshClearance", fmt::format("{:.6g}", gap)},
                // a slice has no end walls: farther than any
                {"endGap", fmt::format("{:.6g}", std::min(ends, kNoEndWall))},
-               {"paddleMeshes", fmt::format("{}", m.periodic ? m.paddles : 1)},
+               {"paddleMeshes", fmt::format("{}", meshes)},
+               {"paddleList", fmt::format("\"{}\"", list)},
                {"paddleAngles", fmt::format("\"{}\"", fmt::join(rotor.angles, " "))},
-               {"meshedDrumVolume", fmt::format("{:.9g}", volume)}};
+               {"meshedDrumVolume", fmt::format("{:.9g}", volume)},
+               {"outlineVolume", fmt::format("{:.9g}", m.drum_length * section)}};  // of the whole drum
   g.notes.push_back(fmt::format("drum {:.4f} dm3 in {} chords, outline {:.4f} dm3 ({:.4f} dm3 for the whole drum)",
                                 volume * 1e3, m.drum_segments, outline * 1e3,
                                 outline * 1e3 * m.drum_length / m.length));
