@@ -446,6 +446,7 @@ TableModel Emulator::model(const ReducedTable& table, const EmulatorOptions& opt
                    "state a strength within it");
   }
   for (const Effect& effect : effects_) {
+    if (!options.candidates && options.known.count(effect.name) == 0) continue;
     EffectResponse response;
     response.name = effect.name;
     response.unit = effect.unit;

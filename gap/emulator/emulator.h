@@ -37,6 +37,7 @@ struct EmulatorOptions {
   double runs_per_observation =
       1;  // the observed mean is one of so many independent runs; 0: u holds their scatter already
   bool use_discrepancy = true;
+  bool candidates = true;               // false: only effects that are known count, as for a prediction
   std::map<std::string, double> known;  // effects that are part of the baseline, with their strengths (table_model.h)
 };
 

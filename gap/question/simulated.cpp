@@ -44,6 +44,7 @@ std::vector<Observation> combinations(const std::string& apparatus, const std::s
 
 SimulatedValues simulated_values(const Inputs& inputs, const std::vector<Observation>& rows, EmulatorOptions options) {
   options.runs_per_observation = 0;  // the mean over seeds
+  options.candidates = false;        // an effect may not reach the conditions asked for
   const auto n = static_cast<Eigen::Index>(rows.size());
   ReducedTable table{"the conditions asked for", "", rows, {}, {}};
   for (Eigen::Index i = 1; i <= n; ++i) table.lines.push_back(static_cast<int>(i));

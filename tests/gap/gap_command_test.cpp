@@ -427,8 +427,11 @@ TEST_F(GapCommand, NextTestRanksByGainPerHour) {
   EXPECT_NE(out_.find("mixer_slow_low"), std::string::npos) << out_;
 }
 
-// A power that goes with another exponent of the speed than anything in the library explains.
+// A power that goes with another exponent of the speed than anything in the library explains: without the losses of the
+// drive, which bend the trend that way.
 TEST_F(GapCommand, NextTestOfAnUnknownGapMakesItStandOut) {
+  for (const char* drive : {"motor_copper", "worm_gear"})
+    ASSERT_TRUE(fs::remove(folder_ / "effects" / (std::string(drive) + ".toml")));
   for (Observation& row : rows_)
     if (row.observable == "power") row.value *= 2.5 * std::pow(*row.speed, -1.5);
   write(rows_);

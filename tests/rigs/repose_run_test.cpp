@@ -53,8 +53,9 @@ TEST(ReposeRun, TakesClumps) {
   for (std::size_t k = 0; k < clumps.rows.size(); k++) EXPECT_GT(clumps.at(k, "z_m"), 0.7 * clumps.at(k, "radius_m"));
   const auto run = nlohmann::json::parse(rig.read("clumps/run.json"));
   EXPECT_EQ(run["parameters"]["rollingResistance"], "0");
-  EXPECT_TRUE(run["hashes"].contains("fodder_corn.clump"));
-  EXPECT_FALSE(nlohmann::json::parse(rig.read("spheres/run.json"))["hashes"].contains("fodder_corn.clump"));
+  EXPECT_TRUE(run["hashes"].contains("../../materials/fodder_corn.clump"));
+  EXPECT_FALSE(
+      nlohmann::json::parse(rig.read("spheres/run.json"))["hashes"].contains("../../materials/fodder_corn.clump"));
   const Outcome done = rig.vielto("post clumps --test coarse");
   ASSERT_EQ(done.status, 0) << done.text;
   EXPECT_EQ(nlohmann::json::parse(rig.read("clumps/post/repose.json"))["grains"], spheres.rows.size());
