@@ -89,7 +89,7 @@ TEST(MixerFilling, HasTheMassAskedForAndTheSizesOfTheNormalDistribution) {
 
 // The mixer's case, to be changed, in the folder of the test.
 void copy_case(const Mixer& mixer) {
-  for (const char* part : {"mixer", "laws"}) fs::copy(fs::path(VIELTO_SOURCE_DIR "/cases") / part, mixer.folder / part);
+  fs::copy(fs::path(VIELTO_SOURCE_DIR "/cases/mixer"), mixer.folder / "mixer");
   for (const char* file : {"law.par", "card.par", "law.in", "drag.in", "engine.in"})
     fs::copy(fs::path(VIELTO_SOURCE_DIR "/cases") / file, mixer.folder);
 }
