@@ -113,16 +113,24 @@ INSTANTIATE_TEST_SUITE_P(
         Setting{"TwoRanks", vielto_models, bed_settings, "", {Material(), stiffer()}, 2}),
     [](const auto& one) { return one.param.name; });
 
+struct Floor {
+  std::string name, motion;
+  int steps;
+};
+void PrintTo(const Floor& f, std::ostream* out) { *out << f.name; }
+class WallLoop : public testing::TestWithParam<Floor> {};
+
 /* The wall loop, which looks at the grains near a mesh only, and LIGGGHTS' own, which it leaves a wall to that stores
    its contact forces: a floor that turns about a point off its middle, so that its edges sweep under the grains at 2
-   m/s. */
-TEST(WallLoop, GivesTheNumbersOfLiggghts) {
+   m/s, and one that rises at 4 m/s into grains which barely move. */
+TEST_P(WallLoop, GivesTheNumbersOfLiggghts) {
   std::string states[2];
   for (const bool general : {false, true}) {
     Liggghts run;
     run.script = bed(run, {"", vielto_models, bed_settings, "", {Material(), stiffer()}, 1});
     if (general) replace(run.script, "meshes floor", "meshes floor store_force_contact yes");
-    replace(run.script, "rotate origin 0 0 0 axis 0 0 1 period 1", "rotate origin 0.01 0.01 0 axis 0 0 1 period 0.2");
+    replace(run.script, "rotate origin 0 0 0 axis 0 0 1 period 1", GetParam().motion);
+    replace(run.script, "run 8000", fmt::format("run {}", GetParam().steps));
     run.write("floor.stl", plate_stl(0.045));
     run.must();
     states[general] = run.read("state") + run.read("wall") + run.read("torque.csv");
@@ -130,6 +138,11 @@ TEST(WallLoop, GivesTheNumbersOfLiggghts) {
   EXPECT_GT(states[0].size(), 10000u);
   EXPECT_TRUE(states[0] == states[1]);
 }
+
+INSTANTIATE_TEST_SUITE_P(Floor, WallLoop,
+                         testing::Values(Floor{"Turns", "rotate origin 0.01 0.01 0 axis 0 0 1 period 0.2", 8000},
+                                         Floor{"Rises", "wiggle amplitude 0 0 0.002 period 0.003", 1200}),
+                         [](const auto& one) { return one.param.name; });
 
 // The step, the grains and the place of a stop at the overlap limit.
 TEST(PackedStop, SaysWhatContactsOneByOneSay) {
