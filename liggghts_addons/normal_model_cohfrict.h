@@ -25,6 +25,7 @@ NORMAL_MODEL(COHFRICT, cohfrict, 21)
 #include "contact_models.h"
 #include "neighbor.h"
 #include "normal_model_base.h"
+#include "vielto_numbers.h"
 #include "vielto_overlap.h"
 #include "vielto_state.h"
 #include "vielto_stop.h"
@@ -62,6 +63,7 @@ class NormalModel<COHFRICT> : public NormalModelBase {
   }
 
   void postSettings(IContactHistorySetup*, ContactModelBase* cmb) {
+    for (const char* name : {"wallRadiusFactor", "maxOverlap"}) vielto::refuse_no_number(lmp, name);
     if (!(wallRadiusFactor_ > 0)) vielto::stop_all(lmp, "cohfrict: wallRadiusFactor must be > 0 (default 2)");
     if (!(overlaps_.limit >= 0)) vielto::stop_all(lmp, "cohfrict: maxOverlap must be >= 0 (0: no limit)");
     if (!cmb->is_wall()) vielto::settings() = {1.0, wallRadiusFactor_, COHFRICT, overlaps_.limit};

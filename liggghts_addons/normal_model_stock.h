@@ -24,6 +24,7 @@ NORMAL_MODEL(HOOKE_WATCHED, hooke/watched, 23)
 #include "neighbor.h"
 #include "normal_model_hertz.h"
 #include "normal_model_hooke.h"
+#include "vielto_numbers.h"
 #include "vielto_overlap.h"
 #include "vielto_state.h"
 #include "vielto_stop.h"
@@ -45,6 +46,7 @@ class WatchedModel : public NormalModel<Stock> {
   }
 
   void postSettings(IContactHistorySetup* hsetup, ContactModelBase* cmb) {
+    vielto::refuse_no_number(this->lmp, "maxOverlap");
     Base::postSettings(hsetup, cmb);
     if (!(overlaps_.limit >= 0)) vielto::stop_all(this->lmp, "vielto: maxOverlap must be >= 0 (0: no limit)");
     const bool hertz = Stock == HERTZ;

@@ -19,6 +19,7 @@ NORMAL_MODEL(VIELTO, vielto, 20)
 #include "contact_models.h"
 #include "neighbor.h"
 #include "normal_model_base.h"
+#include "vielto_numbers.h"
 #include "vielto_overlap.h"
 #include "vielto_properties.h"
 #include "vielto_state.h"
@@ -45,6 +46,7 @@ class NormalModel<VIELTO> : public NormalModelBase {
   }
 
   void postSettings(IContactHistorySetup*, ContactModelBase* cmb) {
+    for (const char* name : {"springFactor", "wallRadiusFactor", "maxOverlap"}) vielto::refuse_no_number(lmp, name);
     if (!(springFactor_ > 0)) vielto::stop_all(lmp, "vielto: springFactor must be > 0 (4 as printed, or 1)");
     if (!(wallRadiusFactor_ > 0)) vielto::stop_all(lmp, "vielto: wallRadiusFactor must be > 0 (default 2)");
     if (!(overlaps_.limit >= 0)) vielto::stop_all(lmp, "vielto: maxOverlap must be >= 0 (0: no limit)");

@@ -29,6 +29,7 @@ NORMAL_MODEL(WALTON_BRAUN, walton_braun, 24)
 #include "contact_models.h"
 #include "neighbor.h"
 #include "normal_model_base.h"
+#include "vielto_numbers.h"
 #include "vielto_overlap.h"
 #include "vielto_properties.h"
 #include "vielto_state.h"
@@ -97,6 +98,7 @@ class NormalModel<WALTON_BRAUN> : public NormalModelBase {
   }
 
   void postSettings(IContactHistorySetup*, ContactModelBase* cmb) {
+    for (const char* name : {"springFactor", "wallRadiusFactor", "maxOverlap"}) vielto::refuse_no_number(lmp, name);
     if (!(springFactor_ > 0)) vielto::stop_all(lmp, "walton_braun: springFactor must be > 0 (default 4)");
     if (!(wallRadiusFactor_ > 0)) vielto::stop_all(lmp, "walton_braun: wallRadiusFactor must be > 0 (default 2)");
     if (!(overlaps_.limit >= 0)) vielto::stop_all(lmp, "walton_braun: maxOverlap must be >= 0 (0: no limit)");

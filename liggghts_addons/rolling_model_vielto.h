@@ -19,6 +19,7 @@ ROLLING_MODEL(ROLLING_VIELTO, vielto, 20)
 
 #include "contact_models.h"
 #include "rolling_model_base.h"
+#include "vielto_numbers.h"
 #include "vielto_properties.h"
 #include "vielto_state.h"
 #include "vielto_stop.h"
@@ -51,6 +52,7 @@ class RollingModel<ROLLING_VIELTO> : public RollingModelBase {
   }
 
   void postSettings(IContactHistorySetup*, ContactModelBase*) {
+    for (const char* name : {"wallRadiusFactor", "wallRolling"}) vielto::refuse_no_number(lmp, name);
     if (!(wallRolling_ >= 0)) vielto::stop_all(lmp, "vielto: wallRolling must be >= 0 (0: as printed)");
   }
 

@@ -26,6 +26,7 @@
 #include <vector>
 
 #include "atom.h"
+#include "error.h"
 #include "fix_property_global.h"
 #include "modify.h"
 #include "pointers.h"
@@ -65,6 +66,21 @@ inline LAMMPS_NS::FixPropertyGlobal* find_property(LAMMPS_NS::LAMMPS* lmp, const
   return NULL;
 }
 
+// A friction angle below 2 degrees is rarely meant; in radians every one is.
+inline void warn_of_radians(LAMMPS_NS::LAMMPS* lmp, const std::vector<double>& angles) {
+  static bool said = false;
+  for (std::size_t t = 1; t < angles.size() && !said; t++)
+    if (angles[t] > 0 && angles[t] < 2) {
+      char line[200];
+      snprintf(
+          line, sizeof line,
+          "vielto: frictionAngle of type %d is %g degrees; is that radians? (%.4g degrees, or a coefficient: %.4g)",
+          static_cast<int>(t), angles[t], angles[t] * 180 / acos(-1.0), atan(angles[t]) * 180 / acos(-1.0));
+      lmp->error->warning(FLERR, line);
+      said = true;
+    }
+}
+
 // Values of one property for types 1..ntypes; out[0] is unused. Stops the run with a line that names the property.
 inline std::vector<double> read_property(LAMMPS_NS::LAMMPS* lmp, const PropertyRule& rule) {
   const int ntypes = lmp->atom->ntypes;
@@ -96,6 +112,7 @@ inline std::vector<double> read_property(LAMMPS_NS::LAMMPS* lmp, const PropertyR
     }
     values[t] = v;
   }
+  if (!strcmp(rule.name, "frictionAngle")) warn_of_radians(lmp, values);
   return values;
 }
 

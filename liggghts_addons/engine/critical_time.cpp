@@ -9,8 +9,11 @@
 #include <vector>
 
 #include "atom.h"
+#include "comm.h"
 #include "engine/law.h"
+#include "error.h"
 #include "lammps.h"
+#include "update.h"
 #include "vielto_state.h"
 
 namespace vielto {
@@ -59,6 +62,20 @@ double shortest_half_period_now(LAMMPS_NS::LAMMPS* lmp) {
   std::vector<Smallest> smallest(n, Smallest{INF, INF});
   for (int t = 1; t < n; t++) smallest[t] = Smallest{all[2 * t], all[2 * t + 1]};
   return shortest(lmp, smallest);
+}
+
+void TimeStepWatch::look(LAMMPS_NS::LAMMPS* lmp) {
+  if (said_ || run_ == lmp->update->firststep) return;
+  run_ = lmp->update->firststep;
+  const double limit = 0.1, dt = lmp->update->dt, tc = shortest_half_period_now(lmp);
+  if (!(tc > 0) || dt <= limit * tc) return;
+  said_ = true;
+  char line[300];
+  snprintf(line, sizeof line,
+           "vielto: time step %.4g s is %.3g of the shortest half period of a contact (%.4g s); over %g contacts are "
+           "false and grains may be lost; take %.4g s",
+           dt, dt / tc, tc, limit, 0.05 * tc);
+  if (lmp->comm->me == 0) lmp->error->warning(FLERR, line);
 }
 
 }  // namespace vielto

@@ -17,6 +17,17 @@ double shortest_half_period_of(LAMMPS_NS::LAMMPS* lmp, double radius, double den
 // Of the grains that are there, s; 0 if there are none. Collective.
 double shortest_half_period_now(LAMMPS_NS::LAMMPS* lmp);
 
+/* Warns at the beginning of a run of any script, when its time step is over a tenth of that time: a contact then gains
+   energy or passes in one step, and the grain is gone without a word. The rigs' own limit is half of it. */
+class TimeStepWatch {
+ public:
+  void look(LAMMPS_NS::LAMMPS* lmp);  // once a step; collective at the first of a run
+
+ private:
+  long long run_ = -1;
+  bool said_ = false;
+};
+
 }  // namespace vielto
 
 #endif

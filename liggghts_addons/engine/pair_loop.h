@@ -20,6 +20,7 @@
 // clang-format off
 #include "fix_insert_stream.h"
 #include "pair_gran_base.h"
+#include "engine/critical_time.h"
 #include "engine/near_pairs.h"
 #include "engine/packed_law.h"
 #include "engine/packed_models.h"
@@ -49,6 +50,7 @@ class FastPair : public LIGGGHTS::PairStyles::Granular<LIGGGHTS::ContactModels::
         packed_(Packed::packs ? packed_law(program) : NULL) {}
 
   void compute_force(LAMMPS_NS::PairGran* pg, int eflag, int vflag, int addflag) override {
+    timeStep_.look(program_);
     const bool plain = !eflag && !vflag && !(pg->cpl() && addflag) && !pg->storeContactForces() &&
                        !pg->storeContactForcesStress() && !pg->storeSumDelta() && !pg->store_sum_normal_force() &&
                        pg->listgranhistory && program_->atom->rmass && program_->atom->sphere_flag &&
@@ -306,6 +308,7 @@ class FastPair : public LIGGGHTS::PairStyles::Granular<LIGGGHTS::ContactModels::
   LAMMPS_NS::LAMMPS* program_;
   Model& model_;
   const PackedLaw* packed_;  // NULL: contacts one by one
+  TimeStepWatch timeStep_;
   NearPairs nearPairs_;
   std::vector<Touch> touches_;
   Block block_ = Block();

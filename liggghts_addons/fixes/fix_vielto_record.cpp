@@ -85,7 +85,50 @@ void FixViEltoRecord::pre_force(int vflag) {
   tally_.energy = energy_;
 }
 
+/* Torque times 2 pi n is a power only for a mesh that turns so: corners of a turning mesh have the velocity
+   omega x (r - origin), known to round-off. What is at rest beside the rotor (a lid) is left alone. */
+void FixViEltoRecord::check_motion(const Part& part, const Mesh& mesh) const {
+  typedef MultiVectorContainer<double, 3, 3> Corners;
+  TriMesh* const triangles = mesh.fix->triMesh();
+  Corners* const velocities = triangles->prop().getElementProperty<Corners>("v");
+  const double omega = 2 * M_PI * speed_;
+  double mine[3] = {0, 0, 0}, most[3];  // greatest: speed, speed of a corner that turns as told, difference of both
+  for (int i = 0; velocities && i < triangles->sizeLocal(); i++)
+    for (int k = 0; k < 3; k++) {
+      double r[3], turned[3], off[3];
+      triangles->node(i, k, r);
+      for (int d = 0; d < 3; d++) r[d] -= origin_[d];
+      cross3(axis_, r, turned);
+      const double* const v = velocities->begin()[i][k];
+      for (int d = 0; d < 3; d++) off[d] = v[d] - omega * turned[d];
+      mine[0] = std::max(mine[0], std::sqrt(dot3(v, v)));
+      mine[1] = std::max(mine[1], omega * std::sqrt(dot3(turned, turned)));
+      mine[2] = std::max(mine[2], std::sqrt(dot3(off, off)));
+    }
+  MPI_Allreduce(mine, most, 3, MPI_DOUBLE, MPI_MAX, world);
+  const bool drum = part.name == "drum", moves = most[0] > 1e-9 * most[1] && most[0] > 0;
+  if (!moves || (!drum && most[2] <= 1e-3 * most[1])) return;
+  char line[500];
+  if (drum)
+    snprintf(line, sizeof line,
+             "vielto: mesh %s of part drum moves (its fastest corner at %.4g m/s), but drum is the part that stands "
+             "still; give the part another name",
+             mesh.id.c_str(), most[0]);
+  else
+    snprintf(line, sizeof line,
+             "vielto: mesh %s of part %s does not turn as fix %s says, at speed %.6g 1/s about axis %g %g %g through "
+             "origin %g %g %g: its fastest corner moves at %.4g m/s instead of %.4g, and corners differ by up to %.4g "
+             "m/s; speed is 1/period of fix move/mesh (turns in a second, not rad/s), and axis and origin are its own",
+             mesh.id.c_str(), part.name.c_str(), id, speed_, axis_[0], axis_[1], axis_[2], origin_[0], origin_[1],
+             origin_[2], most[0], most[1], most[2]);
+  vielto::stop_all(lmp, line);
+}
+
 void FixViEltoRecord::add_step() {
+  if (!motionChecked_)
+    for (const Part& part : parts_)
+      for (const Mesh& mesh : part.meshes) check_motion(part, mesh);
+  motionChecked_ = true;
   double rotor = 0;
   for (Part& part : parts_) {
     add_force(part);

@@ -3,7 +3,8 @@
 
      fix ID all vielto/record every N file F speed n part NAME MESHFIX... [part ...] [keywords]
        every, file, part, dtLimit, header   see fix_vielto_rows.h; `drum` as NAME is the static part
-       speed n               1/s; the rotation starts when this fix is made
+       speed n               1/s; the rotation starts when this fix is made. A mesh of a part that moves otherwise
+                             than at n about `axis` stops the run, and so does a drum that moves.
        axis x y z            axis of rotation through `origin`, default 1 0 0
        origin x y z          default 0 0 0
        each NAME             one torque column more for each mesh of that part (NAME without its s, numbered)
@@ -48,6 +49,7 @@ class FixViEltoRecord : public FixViEltoRows {
   int read_energy(const std::string& value);
   double gravity_moment() const;
   double potential_energy() const;
+  void check_motion(const Part&, const Mesh&) const;
   void check_torque(const Part&, double torque) const;
   double turn() const { return elapsed() * speed_; }
 
@@ -63,6 +65,7 @@ class FixViEltoRecord : public FixViEltoRows {
   double gravity_ = 0;  // sum of samples, N m
   double work_ = 0;     // of the rotor on the grains since the start, J
   double lastRotor_ = 0, lastDrum_ = 0;
+  bool motionChecked_ = false;
 };
 
 }  // namespace LAMMPS_NS

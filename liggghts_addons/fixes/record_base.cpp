@@ -97,6 +97,14 @@ int FixViEltoRows::read_part(int i, int narg, char** arg) {
   if (part.meshes.empty())
     error->fix_error(FLERR, this, ("part " + part.name + " names no fix mesh/surface/stress").c_str());
   parts_.push_back(part);
+  std::map<std::string, std::string> owner;
+  for (const Part& one : parts_)
+    for (const Mesh& mesh : one.meshes)
+      if (!owner.emplace(mesh.id, one.name).second)
+        error->fix_error(FLERR, this,
+                         ("mesh " + mesh.id + " stands in part " + owner[mesh.id] + " and again in part " + one.name +
+                          ", so that its torque would count twice; name it once")
+                             .c_str());
   return 1 + static_cast<int>(part.meshes.size());
 }
 

@@ -124,6 +124,42 @@ TEST(GoodProperty, SoftStiffAndLimitingValuesRun) {
   }
 }
 
+// 27 degrees in radians; 2 degrees and no friction at all are left alone.
+TEST(FrictionAngle, InRadiansIsAskedAbout) {
+  const std::string question = "frictionAngle of type 2 is 0.4712 degrees; is that radians? (27 degrees";
+  for (const char* values : {"27 0.4712", "27 2", "0 27"}) {
+    Liggghts run;
+    run.script = script(run,
+                        with("frictionAngle",
+                             fmt::format("fix frictionAngle all property/global frictionAngle peratomtype {}", values)),
+                        vielto_models);
+    const Outcome outcome = run.start();
+    ASSERT_EQ(outcome.status, 0) << outcome.text;
+    EXPECT_EQ(outcome.text.find(question) != std::string::npos, std::string(values) == "27 0.4712") << outcome.text;
+  }
+}
+
+// Two spheres: half period pi sqrt(m/2 / (4 k_n)) with k_n = 2 E R (the other modes are slower). The warning is for
+// steps over a tenth of it.
+TEST(TimeStepOfAnOwnScript, OverATenthOfTheHalfPeriodIsWarnedOf) {
+  Material m;
+  m.rollingStiffnessFactor = m.twistingStiffnessFactor = 0;
+  m.stiffnessRatio = 0.01;
+  const Sphere one{1, 0.005, 1375, {0, 0, 0}, Vec::Zero(), Vec::Zero()};
+  Sphere two = one;
+  two.x.x() = 0.02;
+  const double tc = pi * std::sqrt(one.mass() / 2 / (8 * m.youngsModulus * one.radius));
+  for (const double fraction : {0.099, 0.101}) {
+    Liggghts run;
+    run.script = head(run, {one, two}, {m}, 0.1) +
+                 fmt::format("timestep {:.17g}\nfix move all nve/sphere\nrun 5\nrun 5\n", fraction * tc);
+    const Outcome outcome = run.start();
+    ASSERT_EQ(outcome.status, 0) << outcome.text;
+    const std::string words = "of the shortest half period of a contact";
+    EXPECT_EQ(outcome.text.find(words) != std::string::npos, fraction > 0.1) << outcome.text;
+  }
+}
+
 struct Line {
   const char* name;
   const char* models;
@@ -150,6 +186,13 @@ INSTANTIATE_TEST_SUITE_P(
         Line{"spring_factor_negative", VIELTO "springFactor -4", {"springFactor must be > 0"}},
         Line{"spring_factor_nan", VIELTO "springFactor nan", {"springFactor must be > 0"}},
         Line{"wall_radius_factor_zero", VIELTO "wallRadiusFactor 0", {"wallRadiusFactor must be > 0"}},
+        Line{"spring_factor_decimal_comma", VIELTO "springFactor 1,5", {"springFactor takes a number", "'1,5'"}},
+        Line{"wall_rolling_decimal_comma", VIELTO "wallRolling 0,27", {"wallRolling takes a number", "'0,27'"}},
+        Line{"wall_radius_factor_word", VIELTO "wallRadiusFactor two", {"wallRadiusFactor takes a number", "'two'"}},
+        Line{"max_overlap_percent", VIELTO "maxOverlap 5%", {"maxOverlap takes a number", "'5%'"}},
+        Line{"max_overlap_percent_of_hooke",
+             "model hooke/watched tangential history rolling_friction epsd2 maxOverlap 5%",
+             {"maxOverlap takes a number", "'5%'"}},
         Line{"max_overlap_negative", VIELTO "maxOverlap -0.1", {"maxOverlap must be >= 0"}},
         Line{"limit_force_maybe", VIELTO "limitForce maybe", {"limitForce"}},
         Line{"sliding_dashpot_number", VIELTO "slidingDashpot 1", {"slidingDashpot"}},
