@@ -2,11 +2,8 @@
 // Purpose: what the simulation would say under any conditions inside the library's range, for any strength of any
 // effect, and how sure that is.
 //
-// Each observable of an apparatus is smoothed by itself (gaussian_process.h): the baseline's mean over its seeds, the
-// response to each effect, the response to the calibrated parameters, and the logarithm of the seed variance. An
-// observable whose every run is above 0 is smoothed in its logarithm, so that effects multiply; others as they are.
-// Conditions are the numeric ones that vary in the library, as logarithms where all are above 0, in units of their
-// range. Where an effect file has a transform for the observable, the transform is used instead of runs.
+// Each observable of an apparatus is smoothed by itself (channel.h). Where an effect file has a transform for the
+// observable, the transform is used instead of runs.
 //
 // A table row is matched by apparatus, observable, conditions, wall and material (those that library states), not by
 // the name of its test. Errors: BadInput (file and line of the row) if the library lacks the observable, for another
@@ -15,19 +12,15 @@
 #pragma once
 
 #include <map>
-#include <optional>
 #include <random>
 #include <set>
 #include <string>
 #include <vector>
 
 #include "core/reduced_table.h"
+#include "gap/emulator/channel.h"
 #include "gap/emulator/discrepancy.h"
-#include "gap/emulator/gaussian_process.h"
 #include "gap/emulator/table_model.h"
-#include "gap/library/condition.h"
-#include "gap/library/effect.h"
-#include "gap/library/library.h"
 
 namespace vielto::gap {
 
@@ -54,46 +47,32 @@ class Emulator {
   std::map<std::pair<std::string, std::string>, LawDifference> differences(const ReducedTable& law,
                                                                            const EmulatorOptions& options) const;
   const std::vector<std::string>& parameter_names() const { return parameter_names_; }
-  const Eigen::VectorXd& nominal() const { return nominal_; }
+  const Eigen::VectorXd& nominal() const { return scale_.nominal; }
 
  private:
-  struct Smooth {
-    GaussianProcess process;
-    std::vector<Point> points;
-    Eigen::MatrixXd noise;
-  };
-  struct Channel {
-    std::string apparatus, observable;
-    bool relative = false;
-    double size = 0;  // root mean square of the baseline
-    std::vector<NamedCondition> varying;
-    std::vector<double> low, high;
-    std::vector<bool> logarithmic;
-    Observation sample;  // the conditions that do not vary
-    std::set<std::string> walls, materials;
-    Smooth level;
-    std::optional<Smooth> log_seed_variance;  // none: no noise (bench)
-    std::map<std::string, Smooth> responses;
-    std::optional<Smooth> parameters;
+  using RowsOfChannel = std::map<const Channel*, std::vector<Eigen::Index>>;
 
-    double coordinate(std::size_t k, double value) const;
-    Point point(const Observation& row) const;
-    double value(double smoothed) const;
-  };
-
-  Channel make_channel(const Library& library, const std::vector<const LibraryValue*>& values) const;
   const Channel& channel_of(const ReducedTable& table, std::size_t row) const;
   // `outside`, `silent`: as in TableModel; silent ones once an observable.
   void check_row(const Channel& channel, const ReducedTable& table, std::size_t row, const EmulatorOptions& options,
                  std::vector<std::string>& outside, std::vector<std::string>& silent) const;
-  void fill_effect(const Channel& channel, const Effect& effect, const std::vector<Eigen::Index>& rows,
-                   TableModel& model, EffectResponse& response) const;
+  TableModel empty_model(const ReducedTable& table) const;
+  RowsOfChannel matched(const ReducedTable& table, const EmulatorOptions& options, TableModel& model) const;
+  // Null: none is to be counted. Errors: BadInput if the library states some, but none of this observable.
+  const Discrepancy* discrepancy_of(const Channel& channel, const EmulatorOptions& options) const;
+  void fill_baseline(const Channel& channel, const std::vector<Eigen::Index>& rows, const EmulatorOptions& options,
+                     TableModel& model) const;
+  void fill_family(const Channel& channel, const std::vector<Eigen::Index>& rows, TableModel& model) const;
+  void integrate_family(TableModel& model) const;
+  void check_known(const EmulatorOptions& options) const;
+  void add_effect(const Effect& effect, const RowsOfChannel& rows, const EmulatorOptions& options,
+                  TableModel& model) const;
 
   std::string folder_;
   std::vector<Effect> effects_;
   std::vector<DiscrepancyEntry> discrepancies_;
   std::vector<std::string> parameter_names_;
-  Eigen::VectorXd nominal_, spread_;
+  ParameterScale scale_;
   Family family_;
   std::vector<Channel> channels_;
 };
