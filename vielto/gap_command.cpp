@@ -23,8 +23,9 @@
 #include "gap/library/library_plan.h"
 #include "gap/library/sources.h"
 #include "gap/question/confirm.h"
-#include "gap/question/inputs.h"
 #include "gap/question/next_question.h"
+#include "gap/question/question.h"
+#include "gap/question/sealed.h"
 #include "gap/question/simulated.h"
 #include "report/diagnosis_page.h"
 
@@ -52,24 +53,10 @@ struct GapOptions {
     o.extrapolate = extrapolate;
     o.runs_per_observation = runs_per_observation;
     o.use_discrepancy = !no_discrepancy;
-    o.known = known_effects();
+    o.known = known_effects(known, without);
     return o;
   }
-  std::map<std::string, double> known_effects() const {
-    std::map<std::string, double> effects;
-    for (const std::string& text : known) {
-      const auto equals = text.find('=');
-      const auto strength = equals == std::string::npos ? std::nullopt : finite_number(text.substr(equals + 1));
-      if (!strength)
-        throw BadInput("--known " + text, 0, "states no strength", "write EFFECT=STRENGTH, such as slice_ends=1");
-      const std::string name = text.substr(0, equals);
-      if (std::find(without.begin(), without.end(), name) != without.end())
-        throw BadInput("--known " + text, 0, "is named by --without too", "a known effect is no candidate anyway");
-      if (!effects.emplace(name, *strength).second)
-        throw BadInput("--known " + text, 0, "is stated twice", "state it once");
-    }
-    return effects;
-  }
+  QuestionOptions question() const { return {files, table, only, without, emulator(), seed, draws}; }
   std::string candidate_file() const {
     return candidates.empty() ? (fs::path(files.completed().settings).parent_path() / "next_tests.toml").string()
                               : candidates;
@@ -79,121 +66,8 @@ struct GapOptions {
   }
 };
 
-// The table in question and its model, all rows and the fit rows.
-struct Question {
-  Inputs inputs;
-  ReducedTable table;
-  TableModel model, fit;
-
-  explicit Question(const GapOptions& o)
-      : inputs(o.files),
-        table(only_rows(read_reduced_table(o.table), o.only)),
-        model(inputs.emulator.model(table, o.emulator(), inputs.settings).without(o.without)),
-        fit(model.part(rows_of(table, "fit"))) {
-    for (const std::string& name : o.without)
-      if (std::none_of(inputs.effects.begin(), inputs.effects.end(), [&](const Effect& e) { return e.name == name; }))
-        throw BadInput("--without " + name, 0, "is no effect", "name one of the effects' folder");
-    if (o.draws > 0) inputs.settings.draws = o.draws;
-    for (const auto* notes : {&inputs.library.notes, &model.silent})
-      model.notes.insert(model.notes.end(), notes->begin(), notes->end());
-  }
-
-  static std::vector<Eigen::Index> rows_of(const ReducedTable& table, const std::string& role) {
-    std::vector<Eigen::Index> keep;
-    for (std::size_t i = 0; i < table.rows.size(); ++i)
-      if (table.rows[i].role == role) keep.push_back(static_cast<Eigen::Index>(i));
-    if (keep.empty() && role == "fit")
-      throw BadInput(table.path, 0, "holds no row of role fit", "a diagnosis rests on fit rows; mark some");
-    return keep;
-  }
-
-  // The fit rows as thresholds and isolability take them: the values do not count.
-  TableModel before_data() const { return fit.in_logarithms(TableModel::NoiseOver::baseline); }
-
-  Threshold threshold(const GapOptions& o) const {
-    const auto keep = rows_of(table, "fit");
-    return bootstrap_threshold(inputs.emulator, before_data(), inputs.settings, o.seed, [&](const Emulator& e) {
-      return e.model(table, o.emulator(), inputs.settings)
-          .without(o.without)
-          .part(keep)
-          .in_logarithms(TableModel::NoiseOver::baseline);
-    });
-  }
-  std::string fingerprint_of_rows() const { return rows_fingerprint(fit.rows, fit.noise); }
-  // What groups and threshold depend on: the fit rows but for their values, library, settings, rivals.
-  std::string fingerprint(const GapOptions& o) const {
-    std::vector<std::string> candidates;
-    for (const EffectResponse& e : model.effects) candidates.push_back(e.name);
-    for (const auto& [name, strength] : o.known_effects()) candidates.push_back(name);
-    json hashes = inputs.provenance(&candidates)["hashes"];
-    hashes.erase("inputs.csv");  // what the runs were made from is checked by itself; the runs' numbers are what counts
-    std::string text = hashes.dump() + fingerprint_of_rows();
-    text += fmt::format("{}|{}|{}|{}|{}", fmt::join(o.without, ","), fmt::join(o.ignored, ","), o.runs_per_observation,
-                        o.no_discrepancy, o.extrapolate);
-    for (const auto& [name, strength] : o.known_effects()) text += fmt::format("|{}={}", name, strength);
-    return sha256_of_text(text);
-  }
-};
-
-// The fit rows as a table.
-ReducedTable only_fit(const Question& q) {
-  ReducedTable fit = q.table;
-  fit.rows.clear();
-  fit.lines.clear();
-  const auto keep = Question::rows_of(q.table, "fit");
-  for (const Eigen::Index i : keep) {
-    fit.rows.push_back(q.table.rows[static_cast<std::size_t>(i)]);
-    fit.lines.push_back(q.table.lines[static_cast<std::size_t>(i)]);
-  }
-  fit.covariance = Eigen::MatrixXd(Eigen::MatrixXd(q.table.covariance)(keep, keep)).sparseView();
-  return fit;
-}
-
-json threshold_json(const Threshold& t) {
-  return {{"log_odds", t.log_odds}, {"low95", t.low95},         {"high95", t.high95},
-          {"draws", t.draws},       {"libraries", t.libraries}, {"seed", t.seed}};
-}
-
-json isolability_json(const Isolability& i, const Threshold& t, const std::string& fingerprint, const std::string& rows,
-                      const json& provenance) {
-  json j = {{"schema", 1}, {"effects", i.effects}};
-  j["detectability"] = json::object();
-  j["separation"] = json::object();
-  for (std::size_t a = 0; a < i.effects.size(); ++a) {
-    j["detectability"][i.effects[a]] = i.detectability[static_cast<Eigen::Index>(a)];
-    for (std::size_t b = 0; b < i.effects.size(); ++b)
-      if (a != b)
-        j["separation"][i.effects[a]][i.effects[b]] =
-            i.separation(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(b));
-  }
-  j["groups"] = json::object();
-  for (std::size_t a = 0; a < i.effects.size(); ++a) j["groups"][i.effects[a]] = i.groups[a];
-  j["detectable"] = json::array();
-  for (const std::string& e : i.effects)
-    if (i.detectable(e)) j["detectable"].push_back(e);
-  j["threshold"] = threshold_json(t);
-  j["fingerprint"] = fingerprint;
-  j["rows"] = rows;
-  j["provenance"] = provenance;
-  return j;
-}
-
 Threshold threshold_of(const GapOptions& o, const Question& q) {
-  if (o.sealed.empty()) return q.threshold(o);
-  if (!seal_holds(o.sealed)) throw BadInput(o.sealed, 0, "is not what its seal says", "bring the sealed file back");
-  std::ifstream in(o.sealed);
-  const json j = json::parse(in, nullptr, false);
-  if (!j.is_object() || !j.contains("threshold") || !j["threshold"].is_object())
-    throw BadInput(o.sealed, 0, "is no isolability.json", "make it with vielto gap isolability");
-  if (j["fingerprint"] != q.fingerprint(o))
-    throw BadInput(o.sealed, 0, "was sealed for other rows, u, correlations, effects or another library",
-                   "seal it again before the data");
-  const json& t = j["threshold"];
-  for (const char* key : {"log_odds", "low95", "high95", "draws", "libraries", "seed"})
-    if (!t.contains(key) || !t[key].is_number())
-      throw BadInput(o.sealed, 0, fmt::format("holds a threshold whose {} is no number", key),
-                     "seal it again: no verdict can rest on it");
-  return {t["log_odds"], t["low95"], t["high95"], t["draws"], t["libraries"], t["seed"]};
+  return o.sealed.empty() ? q.threshold() : sealed_threshold(o.sealed, q);
 }
 
 const std::vector<const char*> kAnswerFiles = {"diagnosis.json", "diagnosis.html"};
@@ -234,9 +108,9 @@ void check_out(const std::string& folder, const std::vector<const char*>& names)
 
 void run_isolability(const GapOptions& o) {
   check_out(o.out, {"isolability.json", "isolability.json.sha256", "isolability.csv", "isolability.svg"});
-  const Question q(o);
+  const Question q(o.question());
   const Isolability i = isolability(q.before_data(), q.inputs.settings);
-  const json j = isolability_json(i, q.threshold(o), q.fingerprint(o), q.fingerprint_of_rows(), q.inputs.provenance());
+  const json j = isolability_json(q, i, q.threshold());
   if (!o.out.empty()) {
     const fs::path out = make_out(o.out);
     write_json(out / "isolability.json", j);
@@ -266,37 +140,23 @@ Diagnosis diagnosis_of(const GapOptions& o, const Question& q, const Isolability
                                   q.inputs.settings.draws));
   if (d.check_rows == 0) d.notes.push_back("the table has no check rows: how far the gap shrinks cannot be proved");
   d.predicted = predicted_shrink(q.model, d, i);
-  if (d.verdict == "ambiguous" || d.verdict == "unknown")
-    d.next_tests = next_tests(q.inputs, only_fit(q), o.emulator(), d, o.candidate_file(), o.without, d.notes);
+  if (d.verdict == Verdict::ambiguous || d.verdict == Verdict::unknown)
+    d.next_tests = next_tests(q.inputs, q.fit_table(), o.emulator(), d, o.candidate_file(), o.without, d.notes);
   return d;
 }
 
 json provenance_of(const GapOptions& o, const Question& q) {
-  json p = q.inputs.provenance();
-  p["hashes"][fs::path(o.table).filename().string()] = sha256_of_file(o.table);
-  if (!q.table.covariance_path.empty())
-    p["hashes"][fs::path(q.table.covariance_path).filename().string()] = sha256_of_file(q.table.covariance_path);
-  p["seeds"] = {o.seed};
-  p["options"] = {{"only", o.only},
-                  {"ignore", o.ignored},
-                  {"runs_per_observation", o.runs_per_observation},
-                  {"extrapolate", o.extrapolate},
-                  {"no_discrepancy", o.no_discrepancy},
-                  {"sealed", !o.sealed.empty()},
-                  {"var", o.vars},
-                  {"seeds_of_each_run", o.seeds}};
-  p["without"] = o.without;
-  p["known"] = json::object();
-  for (const auto& [name, strength] : o.known_effects()) p["known"][name] = strength;
-  p["fingerprint"] = q.fingerprint(o);
-  p["commands"] = json::array();
+  json p = q.provenance();
+  p["options"]["sealed"] = !o.sealed.empty();
+  p["options"]["var"] = o.vars;
+  p["options"]["seeds_of_each_run"] = o.seeds;
   return p;
 }
 
 void write_answer(const GapOptions& o, const Question& q, const Diagnosis& d, const json& provenance) {
   json j = diagnosis_json(d, provenance);
   // a long group would bury the page: its two likeliest members
-  std::vector<std::string> shown = d.verdict == "ambiguous" ? d.group : d.named;
+  std::vector<std::string> shown = d.verdict == Verdict::ambiguous ? d.group : d.named;
   shown.resize(std::min<std::size_t>(shown.size(), 2));
   j["sources"] = sources_json(q.inputs.library, shown);
   const fs::path out = make_out(o.out);
@@ -309,7 +169,7 @@ void write_answer(const GapOptions& o, const Question& q, const Diagnosis& d, co
 
 void run_diagnose(const GapOptions& o) {
   check_out(o.out, kAnswerFiles);
-  const Question q(o);
+  const Question q(o.question());
   const Isolability i = isolability(q.before_data(), q.inputs.settings);
   write_answer(o, q, diagnosis_of(o, q, i), provenance_of(o, q));
 }
@@ -322,7 +182,7 @@ std::string version_of_first_run(const Plan& plan) {
 
 void run_confirm(const GapOptions& o) {
   check_out(o.out, kAnswerFiles);
-  const Question q(o);
+  const Question q(o.question());
   const auto simulable = [](const Observation& row) { return row.role == "check" && row.apparatus != "bench"; };
   if (std::none_of(q.table.rows.begin(), q.table.rows.end(), simulable))
     throw BadInput(o.table, 0, "holds no row of role check that a rig can simulate",
@@ -330,16 +190,15 @@ void run_confirm(const GapOptions& o) {
   const Isolability i = isolability(q.before_data(), q.inputs.settings);
   Diagnosis d = diagnosis_of(o, q, i);
   json provenance = provenance_of(o, q);
-  if (d.verdict == "no_gap") {
+  if (d.verdict == Verdict::no_gap) {
     if (o.run)
       write_answer(o, q, d, provenance);
     else
       fmt::print("{}\nnothing to simulate: no gap is to be closed\n", verdict_sentence(d));
     return;
   }
-  const Plan plan = plan_confirmation(q.inputs, q.model, d, i, o.rig_file(), o.root,
-                                      o.runs.empty() ? (fs::path(o.out) / "runs").string() : o.runs, o.seeds, o.vars,
-                                      o.known_effects(), d.notes);
+  const std::string runs = o.runs.empty() ? (fs::path(o.out) / "runs").string() : o.runs;
+  const Plan plan = plan_confirmation({o.rig_file(), o.root, runs, o.seeds, o.vars}, q, d, i, d.notes);
   for (const PlannedRun& run : plan.runs) {
     // seen from the rig's folder, so that the answer speaks of no machine
     std::vector<std::string> words = run.command;
@@ -358,15 +217,15 @@ void run_confirm(const GapOptions& o) {
   run_plan(plan, o.jobs);
   GapOptions single = o;
   single.runs_per_observation = 1;
-  d.shrink = measured_shrink(plan, q.inputs, q.model, Question(single).model.seed.diagonal());
+  d.shrink = measured_shrink(plan, q.inputs, q.model, Question(single.question()).model.seed.diagonal());
   provenance["liggghts"] = version_of_first_run(plan);
   write_answer(o, q, d, provenance);
 }
 
 void run_next(const GapOptions& o) {
-  const Question q(o);
+  const Question q(o.question());
   Diagnosis d = diagnose(q.model, threshold_of(o, q), q.inputs.settings);
-  d.next_tests = next_tests(q.inputs, only_fit(q), o.emulator(), d, o.candidate_file(), o.without, d.notes);
+  d.next_tests = next_tests(q.inputs, q.fit_table(), o.emulator(), d, o.candidate_file(), o.without, d.notes);
   fmt::print("{}\n{:<22}{:>7}{:>10}{:>10}{:>12}  separates\n", verdict_sentence(d), "test", "hours", "sd now",
              "sd then", "sd an hour");
   for (const NextTest& t : d.next_tests)
@@ -423,145 +282,173 @@ void run_collect(const GapOptions& o) {
   if (!c.missing.empty()) fmt::print("not there yet: {}\n", fmt::join(c.missing, ", "));
 }
 
-}  // namespace
-
-void add_gap_command(CLI::App& app) {
-  auto o = std::make_shared<GapOptions>();
-  CLI::App* gap =
-      app.add_subcommand("gap", "why simulation and measurement disagree: which effect, where, how far it closes");
-  gap->require_subcommand(1);
-  // CLI11's own checks let nan through, and -1 as an unsigned number
-  const CLI::Validator finite(
+// CLI11's own checks let nan through, and -1 as an unsigned number
+CLI::Validator finite() {
+  return CLI::Validator(
       [](const std::string& text) {
         return finite_number(text) ? std::string() : "'" + text + "' is no finite number";
       },
       "FINITE");
-  const CLI::Validator condition(
+}
+
+CLI::Validator condition() {
+  return CLI::Validator(
       [](const std::string& text) {
         return condition_member(text) || text == "wall" || text == "material"
                    ? std::string()
                    : fmt::format("'{}' is no condition; name moisture, tilt, wall, material ...", text);
       },
       "CONDITION");
-  const auto common = [&](CLI::App* c) {
-    c->add_option("--library", o->files.library, "response library (libraries/millet/)")->required();
-    c->add_option("--effects", o->files.effects, "folder of effect files; without it effects/ beside the library");
-    c->add_option("--settings", o->files.settings, "without it diagnosis.toml beside the library");
-    c->add_option("--ignore", o->ignored, "conditions that need not agree with the library, such as moisture,wall")
-        ->delimiter(',')
-        ->check(condition);
-    c->add_flag("--extrapolate", o->extrapolate, "outside the library's conditions: flagged, not refused");
-  };
-  const auto question = [&](CLI::App* c) {
-    c->add_option("TABLE", o->table, "observation table")->required();
-    common(c);
-    c->add_option("--only", o->only, "rows that satisfy this only, such as wall=B (repeatable)");
-    c->add_option("--without", o->without, "effects that are no candidates")->delimiter(',');
-    c->add_option("--known", o->known,
-                  "EFFECT=STRENGTH that the apparatus surely has: part of the baseline, no candidate (repeatable)");
-    c->add_option("--runs-per-observation", o->runs_per_observation,
-                  "how many independent runs an observed value is the mean of; 0: u holds their scatter already")
-        ->check(finite & CLI::NonNegativeNumber)
-        ->capture_default_str();
-    c->add_flag("--no-discrepancy", o->no_discrepancy, "leave the law discrepancy out (more false alarms)");
-    c->add_option("--seed", o->seed, "of the bootstrap")->check(CLI::NonNegativeNumber)->capture_default_str();
-    c->add_option("--draws", o->draws, "of the bootstrap; without it those of the settings")
-        ->check(CLI::PositiveNumber);
-  };
-  const auto answer = [&](CLI::App* c) {
-    c->add_option("--sealed", o->sealed, "isolability.json, sealed before the data: its threshold is taken");
-    c->add_option("--candidates", o->candidates, "candidate tests; without it next_tests.toml beside the settings");
-  };
+}
 
-  CLI::App* isolability_command = gap->add_subcommand(
-      "isolability",
-      "before any data: which effects these tests can tell apart\n"
-      "The table's conditions and u count, its values do not. Writes isolability.json (sealed), .csv and .svg.");
-  question(isolability_command);
-  isolability_command->add_option("--out", o->out, "folder for the answer");
-  isolability_command->callback([o] { run_isolability(*o); });
+using Options = std::shared_ptr<GapOptions>;
 
-  CLI::App* diagnose_command =
+void add_library_options(CLI::App* c, const Options& o) {
+  c->add_option("--library", o->files.library, "response library (libraries/millet/)")->required();
+  c->add_option("--effects", o->files.effects, "folder of effect files; without it effects/ beside the library");
+  c->add_option("--settings", o->files.settings, "without it diagnosis.toml beside the library");
+  c->add_option("--ignore", o->ignored, "conditions that need not agree with the library, such as moisture,wall")
+      ->delimiter(',')
+      ->check(condition());
+  c->add_flag("--extrapolate", o->extrapolate, "outside the library's conditions: flagged, not refused");
+}
+
+void add_question_options(CLI::App* c, const Options& o) {
+  c->add_option("TABLE", o->table, "observation table")->required();
+  add_library_options(c, o);
+  c->add_option("--only", o->only, "rows that satisfy this only, such as wall=B (repeatable)");
+  c->add_option("--without", o->without, "effects that are no candidates")->delimiter(',');
+  c->add_option("--known", o->known,
+                "EFFECT=STRENGTH that the apparatus surely has: part of the baseline, no candidate (repeatable)");
+  c->add_option("--runs-per-observation", o->runs_per_observation,
+                "how many independent runs an observed value is the mean of; 0: u holds their scatter already")
+      ->check(finite() & CLI::NonNegativeNumber)
+      ->capture_default_str();
+  c->add_flag("--no-discrepancy", o->no_discrepancy, "leave the law discrepancy out (more false alarms)");
+  c->add_option("--seed", o->seed, "of the bootstrap")->check(CLI::NonNegativeNumber)->capture_default_str();
+  c->add_option("--draws", o->draws, "of the bootstrap; without it those of the settings")->check(CLI::PositiveNumber);
+}
+
+void add_answer_options(CLI::App* c, const Options& o) {
+  c->add_option("--sealed", o->sealed, "isolability.json, sealed before the data: its threshold is taken");
+  c->add_option("--candidates", o->candidates, "candidate tests; without it next_tests.toml beside the settings");
+}
+
+void add_isolability(CLI::App* gap, const Options& o) {
+  CLI::App* c =
+      gap->add_subcommand("isolability",
+                          "before any data: which effects these tests can tell apart\n"
+                          "The table's conditions and u count, its values do not. Writes isolability.json (sealed), "
+                          ".csv and .svg.");
+  add_question_options(c, o);
+  c->add_option("--out", o->out, "folder for the answer");
+  c->callback([o] { run_isolability(*o); });
+}
+
+void add_diagnose(CLI::App* gap, const Options& o) {
+  CLI::App* c =
       gap->add_subcommand("diagnose",
                           "what explains the gap: diagnosis.json and diagnosis.html\n"
                           "Example: vielto gap diagnose measured.csv --library libraries/millet --out answer");
-  question(diagnose_command);
-  answer(diagnose_command);
-  diagnose_command->add_option("--out", o->out, "folder for the answer")->required();
-  diagnose_command->callback([o] { run_diagnose(*o); });
+  add_question_options(c, o);
+  add_answer_options(c, o);
+  c->add_option("--out", o->out, "folder for the answer")->required();
+  c->callback([o] { run_diagnose(*o); });
+}
 
-  CLI::App* confirm_command = gap->add_subcommand(
+void add_confirm(CLI::App* gap, const Options& o) {
+  CLI::App* c = gap->add_subcommand(
       "confirm",
       "the check tests simulated again with the effect: prints the commands, or runs them (--run) and resumes");
-  question(confirm_command);
-  answer(confirm_command);
-  confirm_command->add_option("--out", o->out, "folder for the answer")->required();
-  confirm_command->add_option("--rigs", o->rigs, "how a test becomes a run; without it rigs.toml beside the settings");
-  confirm_command->add_option("--root", o->root, "folder that holds cases/ and materials/")->capture_default_str();
-  confirm_command->add_option("--runs", o->runs, "where the run folders go; without it OUT/runs");
-  confirm_command->add_option("--seeds", o->seeds, "runs of each")->check(CLI::Range(1, 1000))->capture_default_str();
-  confirm_command->add_option(
-      "--var", o->vars, "NAME=VALUE for all runs beside the library's own settings, such as turns=14 (repeatable)");
-  confirm_command->add_option("--jobs", o->jobs, "runs at a time")->check(CLI::Range(1, 1000))->capture_default_str();
-  confirm_command->add_flag("--run", o->run, "run them, then write the measured shrink");
-  confirm_command->callback([o] { run_confirm(*o); });
+  add_question_options(c, o);
+  add_answer_options(c, o);
+  c->add_option("--out", o->out, "folder for the answer")->required();
+  c->add_option("--rigs", o->rigs, "how a test becomes a run; without it rigs.toml beside the settings");
+  c->add_option("--root", o->root, "folder that holds cases/ and materials/")->capture_default_str();
+  c->add_option("--runs", o->runs, "where the run folders go; without it OUT/runs");
+  c->add_option("--seeds", o->seeds, "runs of each")->check(CLI::Range(1, 1000))->capture_default_str();
+  c->add_option("--var", o->vars,
+                "NAME=VALUE for all runs beside the library's own settings, such as turns=14 (repeatable)");
+  c->add_option("--jobs", o->jobs, "runs at a time")->check(CLI::Range(1, 1000))->capture_default_str();
+  c->add_flag("--run", o->run, "run them, then write the measured shrink");
+  c->callback([o] { run_confirm(*o); });
+}
 
-  CLI::App* next_command = gap->add_subcommand("next", "the next test that separates best per hour");
-  question(next_command);
-  answer(next_command);
-  next_command->callback([o] { run_next(*o); });
+void add_next(CLI::App* gap, const Options& o) {
+  CLI::App* c = gap->add_subcommand("next", "the next test that separates best per hour");
+  add_question_options(c, o);
+  add_answer_options(c, o);
+  c->callback([o] { run_next(*o); });
+}
 
-  CLI::App* predict_command = gap->add_subcommand(
+void add_predict(CLI::App* gap, const Options& o) {
+  CLI::App* c = gap->add_subcommand(
       "predict",
       "what the calibrated simulation says under these conditions, without a run, and how sure it is\n"
       "Every combination of the conditions. Example: vielto gap predict --library libraries/millet --speed 0.5,1 "
       "--fill "
       "0.2");
-  common(predict_command);
-  predict_command->add_option("--apparatus", o->apparatus, "mixer, shearbox, repose, drum")->capture_default_str();
-  predict_command->add_option("--observable", o->observable, "of doc/reference/observation_table.md")
-      ->capture_default_str();
-  for (const NamedCondition& c : kConditions) {
-    std::string option = std::string("--") + c.name;
+  add_library_options(c, o);
+  c->add_option("--apparatus", o->apparatus, "mixer, shearbox, repose, drum")->capture_default_str();
+  c->add_option("--observable", o->observable, "of doc/reference/formats.md")->capture_default_str();
+  for (const NamedCondition& at : kConditions) {
+    std::string option = std::string("--") + at.name;
     std::replace(option.begin(), option.end(), '_', '-');
-    predict_command->add_option(option, o->conditions[c.name], "values, by commas")->delimiter(',')->check(finite);
+    c->add_option(option, o->conditions[at.name], "values, by commas")->delimiter(',')->check(finite());
   }
-  predict_command->add_option("--known", o->known, "EFFECT=STRENGTH that the apparatus surely has (repeatable)");
-  predict_command->add_flag("--no-discrepancy", o->no_discrepancy, "leave the law discrepancy out");
-  predict_command->add_option("--out", o->out, "table to write (CSV)");
-  predict_command->callback([o] { run_predict(*o); });
+  c->add_option("--known", o->known, "EFFECT=STRENGTH that the apparatus surely has (repeatable)");
+  c->add_flag("--no-discrepancy", o->no_discrepancy, "leave the law discrepancy out");
+  c->add_option("--out", o->out, "table to write (CSV)");
+  c->callback([o] { run_predict(*o); });
+}
 
-  CLI::App* discrepancy_command = gap->add_subcommand(
+void add_discrepancy(CLI::App* gap, const Options& o) {
+  CLI::App* c = gap->add_subcommand(
       "discrepancy", "law discrepancy from development laws: one observation table a law, runs without an effect");
-  common(discrepancy_command);
-  discrepancy_command->add_option("TABLE", o->tables, "observation tables, one for each law")->required();
-  discrepancy_command->add_option("--out", o->out, "discrepancy.csv to write")->required();
-  discrepancy_command->callback([o] { run_discrepancy(*o); });
+  add_library_options(c, o);
+  c->add_option("TABLE", o->tables, "observation tables, one for each law")->required();
+  c->add_option("--out", o->out, "discrepancy.csv to write")->required();
+  c->callback([o] { run_discrepancy(*o); });
+}
 
-  const auto planned = [&](CLI::App* c) {
-    c->add_option("PLAN", o->table, "plan of the library, such as libraries/millet/plan.toml")->required();
-    c->add_option("--effects", o->files.effects,
-                  "folder of effect files; without it effects/ beside the plan's folder");
-    c->add_option("--settings", o->files.settings, "without it diagnosis.toml beside the plan's folder");
-    c->add_option("--rigs", o->rigs, "how a test becomes a run; without it rigs.toml beside the settings");
-    c->add_option("--root", o->root, "folder that holds cases/ and materials/")->capture_default_str();
-  };
-  CLI::App* plan_command =
-      gap->add_subcommand("plan",
-                          "the runs of a response library as a study for scripts/campaign\n"
-                          "Example: vielto gap plan libraries/millet/plan.toml --out studies/library.csv");
-  planned(plan_command);
-  plan_command->add_option("--out", o->out, "study table to write")->required();
-  plan_command->callback([o] { run_plan_command(*o); });
+void add_plan_options(CLI::App* c, const Options& o) {
+  c->add_option("PLAN", o->table, "plan of the library, such as libraries/millet/plan.toml")->required();
+  c->add_option("--effects", o->files.effects, "folder of effect files; without it effects/ beside the plan's folder");
+  c->add_option("--settings", o->files.settings, "without it diagnosis.toml beside the plan's folder");
+  c->add_option("--rigs", o->rigs, "how a test becomes a run; without it rigs.toml beside the settings");
+  c->add_option("--root", o->root, "folder that holds cases/ and materials/")->capture_default_str();
+}
 
-  CLI::App* collect_command = gap->add_subcommand(
+void add_plan(CLI::App* gap, const Options& o) {
+  CLI::App* c = gap->add_subcommand("plan",
+                                    "the runs of a response library as a study for scripts/campaign\n"
+                                    "Example: vielto gap plan libraries/millet/plan.toml --out studies/library.csv");
+  add_plan_options(c, o);
+  c->add_option("--out", o->out, "study table to write")->required();
+  c->callback([o] { run_plan_command(*o); });
+}
+
+void add_collect(CLI::App* gap, const Options& o) {
+  CLI::App* c = gap->add_subcommand(
       "collect",
       "makes the response library of the runs that are done, with the hashes of what they were made from\n"
       "Example: vielto gap collect libraries/millet/plan.toml results/studies/library --out libraries/millet");
-  planned(collect_command);
-  collect_command->add_option("RESULTS", o->runs, "the campaign's folder")->required();
-  collect_command->add_option("--out", o->out, "folder of the library")->required();
-  collect_command->callback([o] { run_collect(*o); });
+  add_plan_options(c, o);
+  c->add_option("RESULTS", o->runs, "the campaign's folder")->required();
+  c->add_option("--out", o->out, "folder of the library")->required();
+  c->callback([o] { run_collect(*o); });
+}
+
+}  // namespace
+
+void add_gap_command(CLI::App& app) {
+  const auto o = std::make_shared<GapOptions>();
+  CLI::App* gap =
+      app.add_subcommand("gap", "why simulation and measurement disagree: which effect, where, how far it closes");
+  gap->require_subcommand(1);
+  for (const auto add :
+       {add_isolability, add_diagnose, add_confirm, add_next, add_predict, add_discrepancy, add_plan, add_collect})
+    add(gap, o);
 }
 
 }  // namespace vielto

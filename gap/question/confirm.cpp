@@ -16,6 +16,7 @@
 #include <set>
 #include <sstream>
 #include <thread>
+#include <tuple>
 
 #include "core/bad_input.h"
 #include "core/csv.h"
@@ -113,68 +114,86 @@ std::string simulated_by(const std::string& command) {
 
 }  // namespace
 
-Plan plan_confirmation(const Inputs& inputs, const TableModel& model, const Diagnosis& d,
-                       const Isolability& isolability, const std::string& rigs_file, const std::string& root,
-                       const std::string& runs, int seeds, const std::vector<std::string>& extra,
-                       const std::map<std::string, double>& known, std::vector<std::string>& notes) {
-  std::vector<Index> fit_rows;
-  for (std::size_t i = 0; i < model.rows.size(); ++i)
-    if (model.rows[i].role == "fit") fit_rows.push_back(static_cast<Index>(i));
-  const TableModel fit = model.part(fit_rows);
-  Plan plan;
-  const auto add_variant = [&](const std::string& name, const ModelEvidence* m) {
-    Variant v;
-    v.name = name;
-    if (m) {
-      v.effects = m->effects;
-      v.strengths = medians(*m);
-    }
-    if (name != "before" && fit.family_weights.size() > 0)
-      v.parameters = recalibrated_parameters(fit, v.effects, v.strengths);
-    for (const auto& [effect, strength] : known) {
-      v.effects.push_back(effect);
-      v.strengths.push_back(strength);
-    }
-    plan.variants.push_back(v);
-  };
-  add_variant("before", nullptr);
-  add_variant("recalibrated", nullptr);
-  const auto applied = d.applied();
-  if (!applied.empty()) {
-    add_variant("after", d.model(applied.size() == 2 ? applied[0] + "+" + applied[1] : applied[0]));
-    if (const ModelEvidence* placebo = placebo_of(d, isolability)) {
-      add_variant("placebo", placebo);
-      plan.placebo = placebo->name();
-    }
+std::string text_of(Variant variant) {
+  switch (variant) {
+    case Variant::before:
+      return "before";
+    case Variant::recalibrated:
+      return "recalibrated";
+    case Variant::after:
+      return "after";
+    case Variant::placebo:
+      return "placebo";
   }
+  return "";
+}
 
-  // Settings of all runs; what an effect or the family changes starts from them.
+namespace {
+
+VariantSettings settings_of(Variant variant, const ModelEvidence* m, const Question& question) {
+  VariantSettings v;
+  v.variant = variant;
+  if (m) {
+    v.effects = m->effects;
+    v.strengths = medians(*m);
+  }
+  if (variant != Variant::before && question.fit.family_weights.size() > 0)
+    v.parameters = recalibrated_parameters(question.fit, v.effects, v.strengths);
+  for (const auto& [effect, strength] : question.options.emulator.known) {
+    v.effects.push_back(effect);
+    v.strengths.push_back(strength);
+  }
+  return v;
+}
+
+void add_variants(const Question& question, const Diagnosis& d, const Isolability& isolability, Plan& plan) {
+  plan.variants = {settings_of(Variant::before, nullptr, question),
+                   settings_of(Variant::recalibrated, nullptr, question)};
+  const auto applied = d.applied();
+  if (applied.empty()) return;
+  const std::string name = applied.size() == 2 ? applied[0] + "+" + applied[1] : applied[0];
+  plan.variants.push_back(settings_of(Variant::after, d.model(name), question));
+  if (const ModelEvidence* placebo = placebo_of(d, isolability)) {
+    plan.variants.push_back(settings_of(Variant::placebo, placebo, question));
+    plan.placebo = placebo->name();
+  }
+}
+
+bool is_simulated(const Observation& row) { return row.role == "check" && row.apparatus != "bench"; }
+
+std::map<std::string, std::string> settings_asked(const std::vector<std::string>& texts) {
   std::map<std::string, std::string> asked;
-  for (const std::string& setting : extra) {
+  for (const std::string& setting : texts) {
     const auto equals = setting.find('=');
     if (equals == std::string::npos || equals == 0)
       throw BadInput("--var " + setting, 0, "is no setting", "write --var NAME=VALUE");
     asked[setting.substr(0, equals)] = setting.substr(equals + 1);
   }
+  return asked;
+}
+
+std::string place_of(const std::string& runs) {
   const std::string place = fs::absolute(runs).lexically_normal().string();
   if (place.find_first_of(" \t\n$") != std::string::npos)
     throw BadInput(place, 0, "has a blank or a $ in it, at which LIGGGHTS would split it",
                    "state --runs FOLDER elsewhere");
-  const TomlTable file = TomlTable::read(rigs_file);
-  std::map<std::string, Rig> rigs;
-  std::map<std::string, std::map<std::string, std::string>> settings;
-  for (const Observation& row : model.rows) {
-    if (row.role != "check" || row.apparatus == "bench" || rigs.count(row.apparatus)) continue;
-    const Rig& rig = rigs[row.apparatus] = Rig::read(file, row.apparatus, root);
-    settings[row.apparatus] = library_settings(inputs.library.folder, row.apparatus, notes);
-    for (const auto& [name, value] : asked)
-      if (rig.known.count(name)) settings[row.apparatus][name] = value;
-  }
+  return place;
+}
+
+// A rig of the check tests and the settings of all its runs.
+struct CheckRig {
+  Rig rig;
+  std::map<std::string, std::string> settings;
+};
+
+using CheckRigs = std::map<std::string, CheckRig>;
+
+void check_settings(const std::map<std::string, std::string>& asked, const CheckRigs& rigs) {
   for (const auto& [name, value] : asked) {
     bool is_known = false;
-    for (const auto& [apparatus, rig] : rigs) {
-      is_known = is_known || rig.known.count(name);
-      if (rig.base.count(name) && !finite_number(value))
+    for (const auto& [apparatus, check] : rigs) {
+      is_known = is_known || check.rig.known.count(name);
+      if (check.rig.base.count(name) && !finite_number(value))
         throw BadInput(fmt::format("--var {}={}", name, value), 0,
                        fmt::format("is no number, as in.{} has it", apparatus), "state one");
     }
@@ -182,79 +201,123 @@ Plan plan_confirmation(const Inputs& inputs, const TableModel& model, const Diag
       throw BadInput(fmt::format("--var {}={}", name, value), 0, "is no parameter of the check tests' rigs",
                      "see cases/*/*.par and materials/*.par");
   }
+}
+
+CheckRigs rigs_of(const ConfirmationRequest& request, const Question& question, std::vector<std::string>& notes) {
+  const std::map<std::string, std::string> asked = settings_asked(request.settings);
+  const TomlTable file = TomlTable::read(request.rigs);
+  CheckRigs rigs;
+  for (const Observation& row : question.model.rows) {
+    if (!is_simulated(row) || rigs.count(row.apparatus)) continue;
+    CheckRig& check = rigs[row.apparatus];
+    check.rig = Rig::read(file, row.apparatus, request.root);
+    check.settings = library_settings(question.inputs.library.folder, row.apparatus, notes);
+    for (const auto& [name, value] : asked)
+      if (check.rig.known.count(name)) check.settings[name] = value;
+  }
+  check_settings(asked, rigs);
+  return rigs;
+}
+
+// A condition of the row as the effects of the variant shift it.
+double shifted(double value, const NamedCondition& condition, const Observation& row, const VariantSettings& v,
+               const Inputs& inputs) {
+  for (std::size_t e = 0; e < v.effects.size(); ++e)
+    for (const Transform& t : effect_named(inputs, v.effects[e]).transforms)
+      if (t.operation == Operation::shift && t.condition == condition.name && t.apparatus == row.apparatus)
+        value *= 1 + t.factor * v.strengths[e];
+  return value;
+}
+
+void check_switch(const Effect& effect, double strength, const std::map<std::string, double>& known) {
+  if (known.count(effect.name) && strength != 1)
+    throw BadInput("--known " + effect.name, 0, "is a switch: a run has it wholly or not",
+                   "state strength 1, or leave it a candidate");
+}
+
+// -var of the settings, the family's parameters and the effects, in that order: each starts from those before it. Sets
+// the share of a switched effect.
+std::map<std::string, std::string> changed_settings(const CheckRig& check, const VariantSettings& v,
+                                                    const Question& question, PlannedRun& run) {
+  const Inputs& inputs = question.inputs;
+  std::map<std::string, double> base = check.rig.base;
+  std::map<std::string, std::string> changed = check.settings;
+  for (const auto& [name, value] : check.settings)
+    if (const auto number = finite_number(value)) base[name] = *number;
+  for (Index k = 0; k < v.parameters.size(); ++k) {
+    const std::string& name = inputs.library.parameter_names[static_cast<std::size_t>(k)];
+    base[name] = v.parameters[k];
+    changed[name] = fmt::format("{:.9g}", v.parameters[k]);
+  }
+  const auto& known = question.options.emulator.known;
+  for (std::size_t e = 0; e < v.effects.size(); ++e) {
+    if (v.strengths[e] == 0) continue;
+    const Effect& effect = effect_named(inputs, v.effects[e]);
+    for (const auto& [name, value] : check.rig.settings(effect, v.strengths[e], base)) {
+      changed[name] = value;
+      if (const auto number = finite_number(value)) base[name] = *number;
+    }
+    for (const VarChange& change : effect.vars) {
+      if (!change.acts_on(run.apparatus) || change.rule != VarRule::switched) continue;
+      check_switch(effect, v.strengths[e], known);
+      if (known.count(effect.name) == 0) run.share = v.strengths[e];
+    }
+  }
+  return changed;
+}
+
+PlannedRun planned_run(const Observation& row, const VariantSettings& v, int seed, const CheckRig& check,
+                       const std::string& place, const Question& question) {
+  const Rig& rig = check.rig;
+  PlannedRun run;
+  run.variant = v.variant;
+  run.tests = {row.test};
+  run.apparatus = row.apparatus;
+  run.seed = seed;
+  run.folder = rig.folder;
+  run.files = rig.files;
+  run.resumes = rig.known.count("resume") > 0;
+  run.run = (fs::path(place) / fmt::format("{}-{}-s{}", file_name_of(row.test), text_of(v.variant), seed)).string();
+  run.command = {"liggghts", "-in", rig.script};
+  const auto var = [&](const std::string& name, const std::string& value) {
+    run.command.insert(run.command.end(), {"-var", name, value});
+  };
+  for (const NamedCondition& c : kConditions) {
+    const auto name = rig.vars.find(c.name);
+    if (name == rig.vars.end() || !(row.*c.member)) continue;
+    var(name->second, fmt::format("{:.9g}", shifted(*(row.*c.member), c, row, v, question.inputs)));
+  }
+  for (const auto& [name, value] : changed_settings(check, v, question, run)) var(name, value);
+  var("seed", fmt::format("{}", seed));
+  var("run", run.run);
+  if (!rig.post.empty()) {
+    run.post = words_of(rig.post);
+    run.post.push_back(run.run);
+  }
+  return run;
+}
+
+}  // namespace
+
+Plan plan_confirmation(const ConfirmationRequest& request, const Question& question, const Diagnosis& d,
+                       const Isolability& isolability, std::vector<std::string>& notes) {
+  Plan plan;
+  add_variants(question, d, isolability, plan);
+  const std::string place = place_of(request.runs);
+  const CheckRigs rigs = rigs_of(request, question, notes);
   std::set<std::string> done;
   std::map<std::string, std::string> alike;  // conditions -> the test whose runs serve all of these
-  for (const Observation& row : model.rows) {
-    if (row.role != "check" || row.apparatus == "bench" || !done.insert(row.test).second) continue;
-    const Rig& rig = rigs[row.apparatus];
-    const std::map<std::string, std::string>& common = settings[row.apparatus];
+  for (const Observation& row : question.model.rows) {
+    if (!is_simulated(row) || !done.insert(row.test).second) continue;
     const std::string first = alike.emplace(row.apparatus + " " + conditions_text(row), row.test).first->second;
     if (first != row.test) {
       for (PlannedRun& run : plan.runs)
         if (run.tests.front() == first) run.tests.push_back(row.test);
       continue;
     }
-    for (const Variant& v : plan.variants)
-      for (int seed = 1; seed <= seeds; ++seed) {
-        PlannedRun run;
-        run.variant = v.name;
-        run.tests = {row.test};
-        run.apparatus = row.apparatus;
-        run.seed = seed;
-        run.folder = rig.folder;
-        run.files = rig.files;
-        run.resumes = rig.known.count("resume") > 0;
-        run.run = (fs::path(place) / fmt::format("{}-{}-s{}", file_name_of(row.test), v.name, seed)).string();
-        run.command = {"liggghts", "-in", rig.script};
-        const auto var = [&](const std::string& name, const std::string& value) {
-          run.command.insert(run.command.end(), {"-var", name, value});
-        };
-        for (const NamedCondition& c : kConditions) {
-          const auto name = rig.vars.find(c.name);
-          if (name == rig.vars.end() || !(row.*c.member)) continue;
-          double value = *(row.*c.member);
-          for (std::size_t e = 0; e < v.effects.size(); ++e)
-            for (const Transform& t : effect_named(inputs, v.effects[e]).transforms)
-              if (t.operation == Operation::shift && t.condition == c.name && t.apparatus == row.apparatus)
-                value *= 1 + t.factor * v.strengths[e];
-          var(name->second, fmt::format("{:.9g}", value));
-        }
-        std::map<std::string, double> base = rig.base;
-        for (const auto& [name, value] : common)
-          if (const auto number = finite_number(value)) base[name] = *number;
-        for (Index k = 0; k < v.parameters.size(); ++k) {
-          const std::string& name = inputs.library.parameter_names[static_cast<std::size_t>(k)];
-          base[name] = v.parameters[k];
-        }
-        std::map<std::string, std::string> changed = common;
-        for (Index k = 0; k < v.parameters.size(); ++k) {
-          const std::string& name = inputs.library.parameter_names[static_cast<std::size_t>(k)];
-          changed[name] = fmt::format("{:.9g}", base[name]);
-        }
-        for (std::size_t e = 0; e < v.effects.size(); ++e) {
-          if (v.strengths[e] == 0) continue;
-          const Effect& effect = effect_named(inputs, v.effects[e]);
-          for (const auto& [name, value] : rig.settings(effect, v.strengths[e], base)) {
-            changed[name] = value;
-            if (const auto number = finite_number(value)) base[name] = *number;
-          }
-          for (const VarChange& change : effect.vars)
-            if (change.acts_on(row.apparatus) && change.rule == VarRule::switched) {
-              if (known.count(effect.name) && v.strengths[e] != 1)
-                throw BadInput("--known " + effect.name, 0, "is a switch: a run has it wholly or not",
-                               "state strength 1, or leave it a candidate");
-              if (known.count(effect.name) == 0) run.share = v.strengths[e];
-            }
-        }
-        for (const auto& [name, value] : changed) var(name, value);
-        var("seed", fmt::format("{}", seed));
-        var("run", run.run);
-        if (!rig.post.empty()) {
-          run.post = words_of(rig.post);
-          run.post.push_back(run.run);
-        }
-        plan.runs.push_back(run);
-      }
+    for (const VariantSettings& v : plan.variants)
+      for (int seed = 1; seed <= request.seeds; ++seed)
+        plan.runs.push_back(planned_run(row, v, seed, rigs.at(row.apparatus), place, question));
   }
   return plan;
 }
@@ -337,69 +400,89 @@ void run_plan(const Plan& plan, int jobs) {
   if (!failed.empty()) throw std::runtime_error(failed);
 }
 
-Shrink measured_shrink(const Plan& plan, const Inputs& inputs, const TableModel& model, const VectorXd& seed_variance) {
-  // What the seeds show, by variant, test and observable: values and their own standard uncertainties.
-  std::map<std::string, std::vector<std::pair<double, double>>> shown;
-  std::map<std::string, double> share;
-  for (const PlannedRun& run : plan.runs) {
-    const std::string path = (fs::path(run.run) / "post" / "observations.csv").string();
-    if (!fs::exists(path)) throw BadInput(path, 0, "is not there", "run: " + command_line(run));
-    for (const Observation& row : read_reduced_table(path).rows) {
-      for (const std::string& test : run.tests)
-        shown[run.variant + " " + test + " " + row.observable].emplace_back(row.value, row.u);
+namespace {
+
+// What the runs show: by variant, test and observable values and their own standard uncertainties.
+class Shown {
+ public:
+  explicit Shown(const Plan& plan) {
+    for (const PlannedRun& run : plan.runs) {
+      const std::string path = (fs::path(run.run) / "post" / "observations.csv").string();
+      if (!fs::exists(path)) throw BadInput(path, 0, "is not there", "run: " + command_line(run));
+      for (const Observation& row : read_reduced_table(path).rows)
+        for (const std::string& test : run.tests)
+          values_[{run.variant, test, row.observable}].emplace_back(row.value, row.u);
+      for (const std::string& test : run.tests) share_[{run.variant, test}] = run.share;
     }
-    for (const std::string& test : run.tests) share[run.variant + " " + test] = run.share;
   }
+
+  double share(Variant variant, const std::string& test) const { return share_.at({variant, test}); }
+
+  // Mean over the seeds and its variance: what the run itself says, what seeds of the library scatter by, and what
+  // these seeds do, whichever is largest.
+  std::pair<double, double> mean(Variant variant, const Observation& row, double scatter) const {
+    const auto found = values_.find({variant, row.test, row.observable});
+    if (found == values_.end())
+      throw BadInput("runs of " + text_of(variant), 0, fmt::format("test '{}' shows no {}", row.test, row.observable),
+                     "the rig must write it to post/observations.csv");
+    const double k = static_cast<double>(found->second.size());
+    double sum = 0, own = 0, squares = 0;
+    for (const auto& [value, u] : found->second) sum += value / k, own += u * u / k;
+    for (const auto& [value, u] : found->second) squares += std::pow(value - sum, 2);
+    return {sum, std::max({own, scatter, k > 1 ? squares / (k - 1) : 0.0}) / k};
+  }
+
+ private:
+  std::map<std::tuple<Variant, std::string, std::string>, std::vector<std::pair<double, double>>> values_;
+  std::map<std::pair<Variant, std::string>, double> share_;
+};
+
+// A value and its variance with the measurement effects of the variant, which no run has.
+void transform(const VariantSettings& v, const Observation& row, const Inputs& inputs, double& y, double& variance) {
+  for (std::size_t e = 0; e < v.effects.size(); ++e) {
+    const Transform* t = effect_named(inputs, v.effects[e]).transform_of(row.apparatus, row.observable);
+    if (!t || t->operation == Operation::shift) continue;
+    const Reading reading = t->reading(row, y, v.strengths[e]);
+    y = reading.value;
+    variance *= reading.slope * reading.slope;
+  }
+}
+
+}  // namespace
+
+Shrink measured_shrink(const Plan& plan, const Inputs& inputs, const TableModel& model, const VectorXd& seed_variance) {
+  const Shown shown(plan);
   std::vector<Index> at;
   CheckRows check;
   for (std::size_t i = 0; i < model.rows.size(); ++i)
-    if (model.rows[i].role == "check" && model.rows[i].apparatus != "bench") {
+    if (is_simulated(model.rows[i])) {
       at.push_back(static_cast<Index>(i));
       check.tests.push_back(model.rows[i].test);
     }
   check.observed = model.observed(at);
   check.noise = model.noise(at, at);
   const Index n = static_cast<Index>(at.size());
-  // Mean over the seeds and its variance: what the run itself says, what seeds of the library scatter by, and what
-  // these seeds do, whichever is largest.
-  const auto mean = [&](const std::string& variant, const Observation& row, double scatter) {
-    const auto found = shown.find(variant + " " + row.test + " " + row.observable);
-    if (found == shown.end())
-      throw BadInput("runs of " + variant, 0, fmt::format("test '{}' shows no {}", row.test, row.observable),
-                     "the rig must write it to post/observations.csv");
-    const double k = static_cast<double>(found->second.size());
-    double sum = 0, own = 0, squares = 0;
-    for (const auto& [value, u] : found->second) sum += value / k, own += u * u / k;
-    for (const auto& [value, u] : found->second) squares += std::pow(value - sum, 2);
-    return std::pair(sum, std::max({own, scatter, k > 1 ? squares / (k - 1) : 0.0}) / k);
-  };
-  std::map<std::string, SimulatedRows> simulated;
-  for (const Variant& v : plan.variants) {
+  std::map<Variant, SimulatedRows> simulated;
+  for (const VariantSettings& v : plan.variants) {
     SimulatedRows s{VectorXd(n), VectorXd(n)};
     for (Index i = 0; i < n; ++i) {
       const Observation& row = model.rows[static_cast<std::size_t>(at[i])];
-      auto [y, variance] = mean(v.name, row, seed_variance[at[i]]);
-      const double part = share.at(v.name + " " + row.test);
+      auto [y, variance] = shown.mean(v.variant, row, seed_variance[at[i]]);
+      const double part = shown.share(v.variant, row.test);
       if (part != 1) {
-        const auto [without, its] = mean("recalibrated", row, seed_variance[at[i]]);
+        const auto [without, its] = shown.mean(Variant::recalibrated, row, seed_variance[at[i]]);
         y = part * y + (1 - part) * without;
         variance = part * part * variance + (1 - part) * (1 - part) * its;
       }
-      for (std::size_t e = 0; e < v.effects.size(); ++e) {
-        const Transform* t = effect_named(inputs, v.effects[e]).transform_of(row.apparatus, row.observable);
-        if (!t || t->operation == Operation::shift) continue;
-        const Reading reading = t->reading(row, y, v.strengths[e]);
-        y = reading.value;
-        variance *= reading.slope * reading.slope;
-      }
+      transform(v, row, inputs, y, variance);
       s.value[i] = y;
       s.u[i] = std::sqrt(variance);
     }
-    simulated[v.name] = s;
+    simulated[v.variant] = s;
   }
-  const SimulatedRows& recalibrated = simulated.at("recalibrated");
-  const auto of = [&](const char* name) { return simulated.count(name) ? simulated.at(name) : recalibrated; };
-  Shrink s = shrink_of(check, simulated.at("before"), recalibrated, of("after"), of("placebo"));
+  const SimulatedRows& recalibrated = simulated.at(Variant::recalibrated);
+  const auto of = [&](Variant variant) { return simulated.count(variant) ? simulated.at(variant) : recalibrated; };
+  Shrink s = shrink_of(check, simulated.at(Variant::before), recalibrated, of(Variant::after), of(Variant::placebo));
   s.placebo_name = plan.placebo;
   return s;
 }

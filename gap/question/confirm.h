@@ -14,13 +14,16 @@
 #include <string>
 #include <vector>
 
-#include "gap/question/inputs.h"
+#include "gap/question/question.h"
 #include "gap/verdict/diagnosis.h"
 
 namespace vielto::gap {
 
+enum class Variant { before, recalibrated, after, placebo };
+std::string text_of(Variant variant);
+
 struct PlannedRun {
-  std::string variant;  // before, recalibrated, after, placebo
+  Variant variant = Variant::before;
   std::string apparatus;
   std::vector<std::string> tests;  // the check tests whose conditions it has
   int seed = 1;
@@ -33,29 +36,33 @@ struct PlannedRun {
   double share = 1;                // of a switched effect: part of the way from the recalibrated run to this one
 };
 
-struct Variant {
-  std::string name;
+struct VariantSettings {
+  Variant variant = Variant::before;
   std::vector<std::string> effects;
   std::vector<double> strengths;
   Eigen::VectorXd parameters;  // empty: the baseline's own
 };
 
 struct Plan {
-  std::vector<Variant> variants;
+  std::vector<VariantSettings> variants;
   std::vector<PlannedRun> runs;
   std::string placebo;
 };
 
+struct ConfirmationRequest {
+  std::string rigs, root;             // libraries/rigs.toml, and the folder that its paths start from
+  std::string runs;                   // where the run folders go
+  int seeds = 1;                      // of each run
+  std::vector<std::string> settings;  // further NAME=VALUE, for all rigs that have such a -var
+};
+
 // Runs have the settings that the library's own runs of the rig have (plan.toml in the library's folder; `notes` says
-// so if there is none), so that what is confirmed is the baseline that was diagnosed. `root`: the folder that
-// libraries/rigs.toml's paths start from; `runs`: where the run folders go; `extra`: further NAME=VALUE, for all rigs
-// that have such a -var; `known`: effects that every run has. Errors: BadInput for a rig without an entry, a script
-// that is not there, a setting that no rig has or whose value is no number where the rig states one, and a blank in the
-// path of the runs, at which LIGGGHTS would split it.
-Plan plan_confirmation(const Inputs& inputs, const TableModel& model, const Diagnosis& diagnosis,
-                       const Isolability& isolability, const std::string& rigs, const std::string& root,
-                       const std::string& runs, int seeds, const std::vector<std::string>& extra,
-                       const std::map<std::string, double>& known, std::vector<std::string>& notes);
+// so if there is none), so that what is confirmed is the baseline that was diagnosed; the question's known effects are
+// in every run. Errors: BadInput for a rig without an entry, a script that is not there, a setting that no rig has or
+// whose value is no number where the rig states one, and a blank in the path of the runs, at which LIGGGHTS would split
+// it.
+Plan plan_confirmation(const ConfirmationRequest& request, const Question& question, const Diagnosis& diagnosis,
+                       const Isolability& isolability, std::vector<std::string>& notes);
 
 // A test's name as a file's: letters, digits, '.', '_' and '-' as they are, else '_' and a hash of the name.
 std::string file_name_of(const std::string& test);

@@ -35,13 +35,13 @@ std::vector<NextTest> next_tests(const Inputs& inputs, const ReducedTable& fit, 
   std::vector<const ModelEvidence*> open;
   for (const ModelEvidence& m : diagnosis.models) {
     if (m.effects.empty() || open.size() == 4) continue;
-    if (diagnosis.verdict == "ambiguous" &&
+    if (diagnosis.verdict == Verdict::ambiguous &&
         (m.effects.size() != 1 ||
          std::find(diagnosis.group.begin(), diagnosis.group.end(), m.effects[0]) == diagnosis.group.end()))
       continue;
     open.push_back(&m);
   }
-  const bool unknown = diagnosis.verdict == "unknown";
+  const bool unknown = diagnosis.verdict == Verdict::unknown;
   std::vector<NextTest> tests;
   if (open.size() < 2 && !unknown) return tests;
   std::vector<std::string> left_out;

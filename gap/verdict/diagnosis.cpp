@@ -55,6 +55,20 @@ std::vector<Index> rows_with_role(const TableModel& model, const char* role) {
 
 }  // namespace
 
+std::string text_of(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::no_gap:
+      return "no_gap";
+    case Verdict::named:
+      return "named";
+    case Verdict::ambiguous:
+      return "ambiguous";
+    case Verdict::unknown:
+      return "unknown";
+  }
+  return "";
+}
+
 const ModelEvidence* Diagnosis::model(const std::string& name) const {
   for (const ModelEvidence& m : models)
     if (m.name() == name) return &m;
@@ -62,20 +76,20 @@ const ModelEvidence* Diagnosis::model(const std::string& name) const {
 }
 
 std::vector<std::string> Diagnosis::applied() const {
-  if (verdict == "named") return named;
-  if (verdict == "ambiguous" && !group.empty()) return {group.front()};
+  if (verdict == Verdict::named) return named;
+  if (verdict == Verdict::ambiguous && !group.empty()) return {group.front()};
   return {};
 }
 
-Verdict verdict_of(const TableModel& model, std::vector<ModelEvidence>& models, bool gap_found,
-                   const Settings& settings) {
+Judgement judged(const TableModel& model, std::vector<ModelEvidence>& models, bool gap_found,
+                 const Settings& settings) {
   std::sort(models.begin(), models.end(),
             [](const ModelEvidence& a, const ModelEvidence& b) { return a.probability > b.probability; });
-  Verdict v;
+  Judgement v;
   const auto none = std::find_if(models.begin(), models.end(),
                                  [](const ModelEvidence& m) { return m.effects.empty() && !m.unknown; });
   if (!gap_found) {
-    v.verdict = "no_gap";
+    v.verdict = Verdict::no_gap;
     v.fit_probability = fit_probability(model, *none);
     return v;
   }
@@ -93,23 +107,23 @@ Verdict verdict_of(const TableModel& model, std::vector<ModelEvidence>& models, 
   }
   if (best) v.fit_probability = fit_probability(model, *best);
   if (!best || unknown > settings.unknown_probability * rivals || v.fit_probability < settings.misfit_probability) {
-    v.verdict = "unknown";
+    v.verdict = Verdict::unknown;
     return v;
   }
   if (best->probability >= settings.name_probability * rivals) {
-    v.verdict = "named";
+    v.verdict = Verdict::named;
     v.named = best->effects;
     return v;
   }
   for (const ModelEvidence& m : models) {
     if (m.effects.size() != 1 || (best_pair && m.probability <= best_pair->probability)) continue;
     if (with[m.effects[0]] >= settings.name_probability * rivals) {
-      v.verdict = "named";
+      v.verdict = Verdict::named;
       v.named = m.effects;
       return v;
     }
   }
-  v.verdict = "ambiguous";
+  v.verdict = Verdict::ambiguous;
   double sum = 0;
   for (const ModelEvidence& m : models) {
     if (m.effects.size() != 1 || sum >= settings.group_probability * singles) continue;
@@ -260,7 +274,7 @@ Diagnosis diagnose(const TableModel& model, const Threshold& threshold, const Se
   d.log_odds = largest_log_odds(fit, settings, fit.observed)[0];
   require_finite(d.log_odds, "the log odds of the best rival", fit);
   require_finite(threshold.log_odds, "the threshold", fit);
-  const Verdict v = verdict_of(fit, d.models, d.log_odds > threshold.log_odds, settings);
+  const Judgement v = judged(fit, d.models, d.log_odds > threshold.log_odds, settings);
   d.verdict = v.verdict;
   d.named = v.named;
   d.group = v.group;
@@ -290,7 +304,7 @@ Diagnosis diagnose(const TableModel& model, const Threshold& threshold, const Se
   const auto vary = [&](const std::string& change, const TableModel& changed, const Settings& other) {
     std::vector<ModelEvidence> models = all_evidence(changed, other, 5);
     const bool gap_found = largest_log_odds(changed, other, changed.observed)[0] > threshold.log_odds;
-    const Verdict verdict = verdict_of(changed, models, gap_found, other);
+    const Judgement verdict = judged(changed, models, gap_found, other);
     double rivals = 0;
     const ModelEvidence* top = nullptr;
     for (const ModelEvidence& m : models) {
@@ -367,7 +381,7 @@ nlohmann::ordered_json next_json(const NextTest& t) {
 
 nlohmann::ordered_json diagnosis_json(const Diagnosis& d, const nlohmann::ordered_json& provenance) {
   using json = nlohmann::ordered_json;
-  json j = {{"schema", 1}, {"verdict", d.verdict}, {"named", d.named}, {"group", d.group}};
+  json j = {{"schema", 1}, {"verdict", text_of(d.verdict)}, {"named", d.named}, {"group", d.group}};
   j["probabilities"] = json::object();
   j["strength"] = json::object();
   j["effects"] = json::array();
@@ -415,7 +429,7 @@ nlohmann::ordered_json diagnosis_json(const Diagnosis& d, const nlohmann::ordere
   j["sensitivity"] = json::array();
   for (const Sensitivity& s : d.sensitivity)
     j["sensitivity"].push_back(
-        {{"change", s.change}, {"verdict", s.verdict}, {"top", s.top}, {"probability", s.probability}});
+        {{"change", s.change}, {"verdict", text_of(s.verdict)}, {"top", s.top}, {"probability", s.probability}});
   j["rows"] = {{"fit", d.fit_rows}, {"check", d.check_rows}};
   j["notes"] = d.notes;
   j["provenance"] = provenance;
@@ -432,18 +446,18 @@ std::string verdict_sentence(const Diagnosis& d) {
     return fmt::format("{} at strength {:.3g}{} (90 %: {:.3g} to {:.3g})", s.name, s.interval.value,
                        s.unit == "1" ? "" : " " + s.unit, s.interval.low90, s.interval.high90);
   };
-  if (d.verdict == "no_gap")
+  if (d.verdict == Verdict::no_gap)
     return fmt::format(
         "No gap: the measurement agrees with the calibrated simulation within everything that is uncertain "
         "(probability of no gap {:.0f} %).",
         probability("no_gap"));
-  if (d.verdict == "unknown")
+  if (d.verdict == Verdict::unknown)
     return fmt::format(
         "There is a gap, and none of the effects in the library nor any two of them explain it (unknown {:.0f} %, no "
         "gap "
         "{:.0f} %).",
         probability("unknown"), probability("no_gap"));
-  if (d.verdict == "ambiguous") {
+  if (d.verdict == Verdict::ambiguous) {
     constexpr std::size_t kSaid = 3;  // the whole group stands in the table below the sentence
     std::vector<std::string> rivals;
     for (std::size_t k = 0; k < std::min(kSaid, d.group.size()); ++k) {

@@ -29,6 +29,9 @@
 
 namespace vielto::gap {
 
+enum class Verdict { no_gap, named, ambiguous, unknown };
+std::string text_of(Verdict verdict);
+
 struct NamedStrength {
   std::string name, unit;
   Interval interval;
@@ -57,12 +60,14 @@ struct SimulatedRows {
 };
 
 struct Sensitivity {
-  std::string change, verdict, top;
+  std::string change;
+  Verdict verdict = Verdict::no_gap;
+  std::string top;
   double probability = 0;  // of top among the rivals
 };
 
 struct Diagnosis {
-  std::string verdict;
+  Verdict verdict = Verdict::no_gap;
   std::vector<std::string> named, group;
   std::vector<ModelEvidence> models;  // most probable first
   std::vector<NamedStrength> strengths;
@@ -84,15 +89,14 @@ struct Diagnosis {
   std::vector<std::string> applied() const;
 };
 
-struct Verdict {
-  std::string verdict;
+struct Judgement {
+  Verdict verdict = Verdict::no_gap;
   std::vector<std::string> named, group;
   double fit_probability = 1;
 };
 
 // `models` with probabilities, sorted by them; `gap_found`: the log odds exceed the threshold.
-Verdict verdict_of(const TableModel& model, std::vector<ModelEvidence>& models, bool gap_found,
-                   const Settings& settings);
+Judgement judged(const TableModel& model, std::vector<ModelEvidence>& models, bool gap_found, const Settings& settings);
 
 double absorbable_part(const TableModel& model, const Eigen::VectorXd& gap);
 

@@ -81,8 +81,8 @@ TEST_F(GapDiagnosis, NamesEachEffectOfTheToy) {
       const TableModel fit = fit_model(model(toy::measured(state, random)));
       std::vector<ModelEvidence> models = all_evidence(fit, inputs_->settings);
       const bool gap_found = largest_log_odds(fit, inputs_->settings, fit.observed)[0] > threshold_.log_odds;
-      const Verdict v = verdict_of(fit, models, gap_found, inputs_->settings);
-      right += v.verdict == "named" && v.named == std::vector<std::string>{name};
+      const Judgement v = judged(fit, models, gap_found, inputs_->settings);
+      right += v.verdict == Verdict::named && v.named == std::vector<std::string>{name};
       for (const ModelEvidence& m : models) {
         if (m.name() != name) continue;
         const Interval i = m.strength(0);
@@ -151,9 +151,10 @@ TEST_F(GapDiagnosis, SaysAmbiguousWhereEffectsAreAlike) {
     state.effects["sensor_gain"] = 0.12;
     const TableModel fit = fit_model(model(toy::measured(state, random)));
     std::vector<ModelEvidence> models = all_evidence(fit, inputs_->settings);
-    const Verdict v = verdict_of(fit, models, true, inputs_->settings);
-    named_wrong += v.verdict == "named" && v.named[0] != "sensor_gain";
-    contains += v.verdict == "ambiguous" && std::find(v.group.begin(), v.group.end(), "sensor_gain") != v.group.end();
+    const Judgement v = judged(fit, models, true, inputs_->settings);
+    named_wrong += v.verdict == Verdict::named && v.named[0] != "sensor_gain";
+    contains +=
+        v.verdict == Verdict::ambiguous && std::find(v.group.begin(), v.group.end(), "sensor_gain") != v.group.end();
   }
   EXPECT_LE(named_wrong, 2);
   EXPECT_GE(contains, 6);

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "gap/question/sealed.h"
+
+#include <fmt/format.h>
+
+#include <fstream>
+
+#include "core/bad_input.h"
+#include "core/sha256.h"
+
+namespace vielto::gap {
+
+using json = nlohmann::ordered_json;
+
+namespace {
+
+json threshold_json(const Threshold& t) {
+  return {{"log_odds", t.log_odds}, {"low95", t.low95},         {"high95", t.high95},
+          {"draws", t.draws},       {"libraries", t.libraries}, {"seed", t.seed}};
+}
+
+}  // namespace
+
+json isolability_json(const Question& question, const Isolability& i, const Threshold& threshold) {
+  json j = {{"schema", 1}, {"effects", i.effects}};
+  j["detectability"] = json::object();
+  j["separation"] = json::object();
+  for (std::size_t a = 0; a < i.effects.size(); ++a) {
+    j["detectability"][i.effects[a]] = i.detectability[static_cast<Eigen::Index>(a)];
+    for (std::size_t b = 0; b < i.effects.size(); ++b)
+      if (a != b)
+        j["separation"][i.effects[a]][i.effects[b]] =
+            i.separation(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(b));
+  }
+  j["groups"] = json::object();
+  for (std::size_t a = 0; a < i.effects.size(); ++a) j["groups"][i.effects[a]] = i.groups[a];
+  j["detectable"] = json::array();
+  for (const std::string& e : i.effects)
+    if (i.detectable(e)) j["detectable"].push_back(e);
+  j["threshold"] = threshold_json(threshold);
+  j["fingerprint"] = question.fingerprint();
+  j["rows"] = question.fingerprint_of_rows();
+  j["provenance"] = question.inputs.provenance();
+  return j;
+}
+
+json read_sealed(const std::string& path) {
+  if (!seal_holds(path)) throw BadInput(path, 0, "is not what its seal says", "bring the sealed file back");
+  std::ifstream in(path);
+  json j = json::parse(in, nullptr, false);
+  if (!j.is_object() || !j.contains("threshold") || !j["threshold"].is_object())
+    throw BadInput(path, 0, "is no isolability.json", "make it with vielto gap isolability");
+  return j;
+}
+
+Threshold sealed_threshold(const std::string& path, const Question& question) {
+  const json j = read_sealed(path);
+  if (j.value("fingerprint", json()) != question.fingerprint())
+    throw BadInput(path, 0, "was sealed for other rows, u, correlations, effects or another library",
+                   "seal it again before the data");
+  const json& t = j["threshold"];
+  for (const char* key : {"log_odds", "low95", "high95", "draws", "libraries", "seed"})
+    if (!t.contains(key) || !t[key].is_number())
+      throw BadInput(path, 0, fmt::format("holds a threshold whose {} is no number", key),
+                     "seal it again: no verdict can rest on it");
+  return {t["log_odds"], t["low95"], t["high95"], t["draws"], t["libraries"], t["seed"]};
+}
+
+}  // namespace vielto::gap
