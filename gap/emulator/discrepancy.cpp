@@ -67,7 +67,7 @@ const char* const kHeader = "apparatus,observable,sd,common,length,laws";
 std::vector<DiscrepancyEntry> read_discrepancies(const std::string& path) {
   std::ifstream in;
   std::string line = open_table(in, path);
-  if (line != kHeader) throw BadInput(path, 1, "has another header", fmt::format("write exactly '{}'", kHeader));
+  expect_header(path, line, kHeader);
   std::vector<DiscrepancyEntry> entries;
   std::vector<std::string_view> f;
   for (int number = 2; std::getline(in, line); ++number) {

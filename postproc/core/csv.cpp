@@ -3,11 +3,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <stdexcept>
+#include <utility>
 
 #include "core/bad_input.h"
 
@@ -31,6 +34,69 @@ std::string open_table(std::ifstream& in, const std::string& path) {
     throw BadInput(path, 1, "begins with a byte-order mark", "save it as UTF-8 without one");
   if (!line.empty() && line.back() == '\r') line.pop_back();
   return line;
+}
+
+namespace {
+
+std::vector<std::string> split_names(std::string_view line, char separator) {
+  std::vector<std::string> names(1);
+  for (const char c : line)
+    if (c == separator)
+      names.emplace_back();
+    else
+      names.back() += c;
+  return names;
+}
+
+// Without what spreadsheets and people add around a name: quotes, blanks, capitals.
+std::vector<std::string> bare(std::vector<std::string> names, std::string_view added, bool lower = false) {
+  for (std::string& name : names) {
+    while (!name.empty() && added.find(name.back()) != std::string_view::npos) name.pop_back();
+    while (!name.empty() && added.find(name.front()) != std::string_view::npos) name.erase(0, 1);
+    if (lower) std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return std::tolower(c); });
+  }
+  return names;
+}
+
+bool has(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+struct Difference {
+  std::string what, mend;
+};
+
+Difference difference(std::string_view line, std::string_view header) {
+  const std::vector<std::string> wanted = split_names(header, ',');
+  for (const auto& [separator, name] : {std::pair{';', "semicolons"}, {'\t', "tabs"}, {'|', "bars"}})
+    if (bare(split_names(line, separator), " \"\t", true) == wanted)
+      return {fmt::format("is separated by {}", name),
+              "save it separated by commas, with a decimal point in its numbers (not a decimal comma)"};
+  const std::vector<std::string> there = split_names(line, ',');
+  if (bare(there, "\"") == wanted) return {"has quotes around its names", "save it without quotes"};
+  if (bare(there, " \t\"") == wanted)
+    return {"has blanks around its names", "write commas with nothing before or behind them"};
+  if (bare(there, " \t\"", true) == wanted) return {"has capital letters in its names", "write them in small letters"};
+  std::string lacking, unknown;
+  for (const std::string& name : wanted)
+    if (!has(there, name)) lacking += (lacking.empty() ? "" : ", ") + name;
+  for (const std::string& name : there)
+    if (!has(wanted, name)) unknown += fmt::format("{}'{}'", unknown.empty() ? "" : ", ", name);
+  const std::string mend = fmt::format("write exactly '{}'", header);
+  if (!lacking.empty() && lacking.size() < header.size() / 2)
+    return {fmt::format("lacks {}{}", lacking, unknown.empty() ? "" : " and has " + unknown), mend};
+  if (lacking.empty() && !unknown.empty())
+    return {fmt::format("has {} beside the columns of this table", unknown), mend};
+  if (lacking.empty() && there.size() == wanted.size()) return {"has its columns in another order", mend};
+  return {"has another header", mend};
+}
+
+}  // namespace
+
+void expect_header(const std::string& path, std::string_view line, std::string_view header) {
+  if (line == header) return;
+  const Difference found = difference(line, header);
+  throw BadInput(path, 1, found.what, found.mend);
 }
 
 std::optional<double> finite_number(std::string_view field) {

@@ -18,6 +18,10 @@ void split_fields(std::string_view line, std::vector<std::string_view>& fields);
 // Errors: BadInput for what is no readable file, a folder, an empty file, or one that begins with a byte-order mark.
 std::string open_table(std::ifstream& in, const std::string& path);
 
+// Refuses a header line that is not `header`: BadInput that says what differs (separator, quotes, blanks, case, a
+// column that lacks, is unknown or out of order) instead of both lines.
+void expect_header(const std::string& path, std::string_view line, std::string_view header);
+
 // A finite decimal number that fills the whole field (1, -2.5, 3e-4), whatever the locale; otherwise nothing.
 std::optional<double> finite_number(std::string_view field);
 

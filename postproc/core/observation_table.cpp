@@ -161,7 +161,7 @@ template <class Use>
 void read_rows(const std::string& path, const std::string& header, Use use) {
   std::ifstream in;
   std::string line = open_table(in, path);
-  if (line != header) throw BadInput(path, 1, "has another header", fmt::format("write exactly '{}'", header));
+  expect_header(path, line, header);
   std::vector<std::string_view> names, fields;
   split_fields(header, names);
   int number = 1;

@@ -191,6 +191,32 @@ TEST_F(ObservationTable, RefusesAFaultWithFileLineColumnAndReason) {
         << "row: " << row << "\nrefusal: " << refusal_of_row(row);
 }
 
+// What differs is said, as spreadsheets and people change a header.
+TEST_F(ObservationTable, SaysWhatDiffersInItsHeader) {
+  const auto changed = [](const std::string& from, const std::string& to) {
+    std::string header = kHeader;
+    for (std::size_t at = 0; (at = header.find(from, at)) != std::string::npos; at += to.size())
+      header.replace(at, from.size(), to);
+    return header;
+  };
+  const std::string quoted = "\"" + changed(",", "\",\"") + "\"";
+  for (const auto& [header, words] : {std::pair<std::string, std::string>{
+                                          changed(",", ";"), "is separated by semicolons; save it separated by commas"},
+                                      {changed(",", "\t"), "is separated by tabs"},
+                                      {changed(",", " ; "), "is separated by semicolons"},
+                                      {quoted, "has quotes around its names"},
+                                      {changed(",", ", "), "has blanks around its names"},
+                                      {kHeader + " ", "has blanks around its names"},
+                                      {changed("role", "Role"), "has capital letters in its names"},
+                                      {changed(",tilt", ""), "lacks tilt;"},
+                                      {changed("fill", "filling"), "lacks fill and has 'filling';"},
+                                      {kHeader + ",note", "has 'note' beside the columns of this table"},
+                                      {changed("speed,fill", "fill,speed"), "has its columns in another order"}})
+    EXPECT_EQ(refusal([&] { read(header + "\n"); }).rfind("table.csv, line 1: " + words, 0), 0u)
+        << header << "\n"
+        << refusal([&] { read(header + "\n"); });
+}
+
 TEST_F(ObservationTable, RefusesAMissingFileAnotherHeaderAndAnEmptyTable) {
   EXPECT_EQ(refusal([&] { vielto::read_observations(path_); }).rfind("table.csv: cannot be read", 0), 0u);
   EXPECT_EQ(refusal([&] { read(""); }).rfind("table.csv: is empty", 0), 0u);
@@ -198,7 +224,7 @@ TEST_F(ObservationTable, RefusesAMissingFileAnotherHeaderAndAnEmptyTable) {
               read("\xEF\xBB\xBF" + kHeader + "\n");
             }).rfind("table.csv, line 1: begins with a byte-order mark", 0),
             0u);
-  EXPECT_EQ(refusal([&] { read("test, role\n"); }).rfind("table.csv, line 1: has another header", 0), 0u);
+  EXPECT_EQ(refusal([&] { read("name,value\n"); }).rfind("table.csv, line 1: has another header", 0), 0u);
   EXPECT_EQ(refusal([&] { read(kHeader + "\n"); }).rfind("table.csv: holds no row", 0), 0u);
 }
 
