@@ -90,6 +90,18 @@ void read_design(Library& library, const std::vector<Effect>& effects) {
   }
 }
 
+/* What no simulated run can give: a bed without slope, power, stress or weight, a slope of 90 degrees. Such a row is a
+   mistake of its maker, and an emulator would take it as a response. A drift of zero may have any sign. */
+void refuse_impossible(const Observation& row, const std::string& path, int line) {
+  if (row.observable == "zero_drift") return;
+  if (!(row.value > 0))
+    throw BadInput(path, line, "value", fmt::format("{} of {} is {}", row.observable, row.apparatus, row.value),
+                   "state a value above 0, or remove the run");
+  if (row.unit == "deg" && !(row.value < 90))
+    throw BadInput(path, line, "value", fmt::format("{} of {} is {} degrees", row.observable, row.apparatus, row.value),
+                   "state an angle below 90, or remove the run");
+}
+
 void read_tables(Library& library) {
   std::map<std::string, int> runs;
   for (std::size_t i = 0; i < library.runs.size(); ++i) runs[library.runs[i].test] = static_cast<int>(i);
@@ -114,6 +126,7 @@ void read_tables(Library& library) {
       if (!seen.emplace(run->second, row.apparatus + " " + row.observable).second)
         throw BadInput(path, table.lines[i], "observable", fmt::format("of run '{}' is stated twice", row.test),
                        "state each observable of a run once");
+      refuse_impossible(row, path, table.lines[i]);
       has_rows[run->second] = true;
       library.values.push_back({run->second, row});
     }

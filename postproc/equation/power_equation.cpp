@@ -71,6 +71,19 @@ std::string outside(const std::string& what, double value, const FittedRange& ra
   return fmt::format("{} = {:.4g} is outside {:.4g} to {:.4g}", what, value, range.low, range.high);
 }
 
+// Grain would be flung to the drum all the way round above Fr_M = 1, and a mixer of 10 1/s is none of this kind.
+void note_revolutions_per_minute(PowerData& data) {
+  for (const auto* rows : {&data.fit, &data.check})
+    for (const PowerRow& row : *rows) {
+      const double speed = *row.observation.speed, froude = mixing_froude_number(row.mixer.lever, speed);
+      if (speed <= 10 && froude <= 1) continue;
+      data.notes.push_back(
+          fmt::format("{}, line {}: speed {:.6g} 1/s and Fr_M {:.3g}: is that 1/min? Speeds are in 1/s", row.file,
+                      row.line, speed, froude));
+      return;
+    }
+}
+
 }  // namespace
 
 std::string number_name(PowerNumber number) { return number == PowerNumber::n_pc ? "N_PC" : "N_P"; }
@@ -117,6 +130,7 @@ PowerData power_data(const std::vector<ReducedTable>& tables, const std::vector<
           covariance.emplace_back(index[v.row()], index[v.col()], v.value());
     if (!table.covariance_path.empty()) data.covariance_paths.push_back(table.covariance_path);
   }
+  note_revolutions_per_minute(data);
   if (only) {
     const std::string& name = (data.fit.empty() ? data.check : data.fit).front().observation.material;
     if (!name.empty() && !only->name.empty() && name != only->name)

@@ -315,6 +315,21 @@ TEST_F(Regression, AnotherNameOfTheOneMaterialIsNoted) {
             std::string::npos);
 }
 
+// The same table with speeds in revolutions per minute; 1.58 1/s is the fastest of the booklet, Fr_M 0.029.
+TEST_F(Regression, RevolutionsPerMinuteAreAskedAbout) {
+  const auto notes = [&](double factor) {
+    std::ostringstream rows;
+    for (const double l : {0.1, 0.15, 0.2})
+      for (const double n : {0.5, 0.8, 1.2, 1.5})
+        rows << "t" << l << "_" << n << ",fit,mixer,power," << power_of(8.2, 1, 0.1, -0.2, l, n, 825, 6175) << ",0.1,W,"
+             << factor * n << "," << l << ",,,,,,\n";
+    return result("fit " + write("t.csv", kHeader + rows.str()) + kMillet)["notes"].dump();
+  };
+  EXPECT_EQ(notes(1).find("is that 1/min?"), std::string::npos);
+  EXPECT_NE(notes(60).find("t.csv, line 2: speed 30 1/s and Fr_M 10.5: is that 1/min?"), std::string::npos)
+      << notes(60);
+}
+
 TEST_F(Regression, HelpNamesTheOptionsOfEachCommand) {
   for (const auto& [command, option] :
        {std::pair<const char*, const char*>{"fit", "--fix"}, {"predict", "--motor-power"}, {"compare", "--ignore"}}) {

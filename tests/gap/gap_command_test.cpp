@@ -187,6 +187,13 @@ TEST_F(GapCommand, ExtrapolationIsFlaggedWhenItIsAllowed) {
       << out_;
 }
 
+// The table with another value in its first row.
+std::string impossible(std::string table, const std::string& value) {
+  std::size_t from = table.find('\n');
+  for (int comma = 0; comma < 4; ++comma) from = table.find(',', from + 1);
+  return table.replace(from + 1, table.find(',', from + 1) - from - 1, value);
+}
+
 TEST_F(GapCommand, RefusesLibrariesWithOneClearLine) {
   const std::string design = content(folder_ / "library/design.csv");
   const auto with_design = [&](const std::string& from, const std::string& to, const std::string& part) {
@@ -209,6 +216,12 @@ TEST_F(GapCommand, RefusesLibrariesWithOneClearLine) {
   };
   with_design(hash(2), hash(1), "column run_hash: is the run of line 2 again");
   std::ofstream(folder_ / "library/design.csv") << design;
+  const std::string first = content(folder_ / "library/observations.csv");
+  std::ofstream(folder_ / "library/observations.csv") << impossible(first, "-24");
+  expect_refusal("observations.csv, line 2, column value: ");
+  std::ofstream(folder_ / "library/observations.csv") << impossible(first, "0");
+  expect_refusal("is 0; state a value above 0, or remove the run");
+  std::ofstream(folder_ / "library/observations.csv") << first;
   replace_in(folder_ / "library/posterior.csv", "rollingResistance", "rollingFriction");
   expect_refusal("posterior.csv, line 1: names the parameters frictionAngle, rollingFriction");
   fs::remove(folder_ / "library/posterior.csv");
