@@ -1,44 +1,72 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The rigs as scripts need them: names, result file, default values, and what a run costs."""
-import functools
+"""The one table of rigs, cases/rigs.toml, which says what its keys mean, and tables of the same form for rigs of one's own."""
+import pathlib
 import re
 
-from tools import ROOT
+from tools import ROOT, files
+from tools.errors import BadInput
 
-RESULT = {"mixer": "power", "shearbox": "shear", "repose": "repose", "drum": "drum"}  # post/NAME.json of a rig
-NAMES = tuple(RESULT)
-
-
-@functools.cache
-def defaults(rig):
-    """The rig's parameters as its file has them."""
-    return dict(re.findall(r"^variable (\w+) index (\S+)", (ROOT / "cases" / rig / f"{rig}.par").read_text(), re.M))
+TABLE = ROOT / "cases/rigs.toml"
 
 
-def work(point):
-    """Relative cost of a run: its grains times its steps, told from the rig's parameters. 0 where there is no such run:
-    the rig will say so."""
-    try:
-        return max(0.0, float(_cost(point)))
-    except (ValueError, ZeroDivisionError, TypeError, OverflowError):
+class Rig:
+    def __init__(self, name, stated, folder):
+        self.name = name
+        self.script = folder / stated["script"]
+        self.parameters = [folder / path for path in stated.get("parameters", [])]
+        self.record = stated.get("record")
+        self.post = stated.get("post", "")
+        self.result = stated.get("result")
+        self.reference = stated.get("reference", [])
+        self._work = stated.get("work", "0")
+        self._defaults = None
+
+    def defaults(self):
+        """Every -var and its baseline value, as text. As in LIGGGHTS, what is stated first holds."""
+        if self._defaults is None:
+            self._defaults = {}
+            for path in self.parameters:
+                for name, value in re.findall(r"^variable (\w+) index (\S+)", path.read_text(), re.M):
+                    self._defaults.setdefault(name, value)
+        return self._defaults
+
+    def work(self, settings):
+        """Relative cost of a run with these -var: bulk volume of the grains times simulated time (`work`), over the fourth
+        power of the grain's diameter, for their number and the time step, times the root of their stiffness, for the time
+        step. 0 for settings with which there is no such run: the rig will say so."""
+        values = {name: _number(value) for name, value in {**self.defaults(), **settings}.items()}
+        try:
+            volume_time = eval(self._work, {"__builtins__": {}, "min": min, "max": max}, _Names(values))
+            cost = volume_time / values["grainDiameter"] ** 4 * values["youngsModulus"] ** 0.5
+            return max(0.0, float(cost))
+        except (ArithmeticError, KeyError, SyntaxError, TypeError, ValueError):
+            return 0.0
+
+
+class _Names(dict):
+    """A -var that is not given is 0, as a column that a study has not."""
+
+    def __missing__(self, name):
+        if name in ("min", "max"):
+            raise KeyError(name)
         return 0.0
 
 
-def _cost(point):
-    def get(name, other=0.0):
-        return float(point.get(name) or defaults(point["rig"]).get(name) or other)
+def _number(text):
+    try:
+        return float(text)
+    except (TypeError, ValueError):
+        return text  # a word, true unless empty
 
-    if point["rig"] == "mixer":
-        drum = get("drumLength") * (get("slicePaddles") / get("paddleCount") or 1) * 0.062  # m3, of its section
-        grain, seconds = drum * max(get("fill"), 0.01), get("turns") / get("speed")
-    elif point["rig"] == "shearbox":
-        grain = get("boxLength") * get("boxWidth") * get("boxHeight")
-        seconds = get("displacement") / get("shearVelocity")
-        seconds += 0 if point.get("bed") else get("settleTime") + get("loadTime")
-    elif point["rig"] == "repose":
-        grain = get("cylinderDiameter") ** 2 * get("fillHeight")
-        seconds = get("settleTime") + get("fillHeight") / get("liftSpeed")
-    else:
-        grain, seconds = get("drumDiameter") ** 2 * get("drumLength") * get("fill"), get("settleTime")
-        seconds += (get("startAngle") + get("frames") * get("frameAngle")) / 360 / get("speed")
-    return grain * seconds / get("grainDiameter") ** 4 * get("youngsModulus", 2e6) ** 0.5
+
+def read(own=None):
+    """{name: Rig} of the table, and of a table of one's own."""
+    rigs = {}
+    for path in filter(None, (TABLE, own)):
+        path = pathlib.Path(path).resolve()
+        for name, stated in files.read_toml(path, "give a table in the form of cases/rigs.toml").items():
+            if name in rigs:
+                raise BadInput(f"{path}: {name} is the name of a rig that there is; name it otherwise")
+            if isinstance(stated, dict) and "script" in stated:
+                rigs[name] = Rig(name, stated, path.parent)
+    return rigs

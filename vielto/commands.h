@@ -16,5 +16,9 @@ void add_gap_command(CLI::App& app);
 void add_import_command(CLI::App& app);
 void add_import_surface(CLI::App& import);
 void add_report_command(CLI::App& app);
+void add_rigs_command(CLI::App& app);
+
+// --rigs FILE of a command that reads observation tables or makes runs.
+void add_rigs_option(CLI::App* command);
 
 }  // namespace vielto

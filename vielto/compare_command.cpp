@@ -74,6 +74,7 @@ void add_compare_command(CLI::App& app) {
       "is read from TABLE.covariance.csv or covariance.csv beside it. power_loaded and power_idle are compared as "
       "power.\n"
       "Example: vielto compare measured.csv simulated.csv --ignore moisture,wall");
+  add_rigs_option(command);
   command->add_option("A", o->a, "observation table, the observed one")->required();
   command->add_option("B", o->b, "observation table, the simulated one")->required();
   command->add_option("--ignore", o->ignored, "conditions that need not agree, such as moisture,wall")->delimiter(',');

@@ -19,6 +19,7 @@
 #include "commands.h"
 #include "core/bad_input.h"
 #include "core/csv.h"
+#include "core/rig_table.h"
 #include "core/sha256.h"
 #include "gap/library/library_plan.h"
 #include "gap/library/sources.h"
@@ -38,7 +39,7 @@ using json = nlohmann::ordered_json;
 
 struct GapOptions {
   InputFiles files;
-  std::string table, out, candidates, sealed, rigs, root = ".", runs;
+  std::string table, out, candidates, sealed, root = ".", runs;
   std::string apparatus = "mixer", observable = "power";
   std::map<std::string, std::vector<double>> conditions;
   std::vector<std::string> tables, ignored, only, without, known, vars;
@@ -60,9 +61,6 @@ struct GapOptions {
   std::string candidate_file() const {
     return candidates.empty() ? (fs::path(files.completed().settings).parent_path() / "next_tests.toml").string()
                               : candidates;
-  }
-  std::string rig_file() const {
-    return rigs.empty() ? (fs::path(files.completed().settings).parent_path() / "rigs.toml").string() : rigs;
   }
 };
 
@@ -183,10 +181,10 @@ std::string version_of_first_run(const Plan& plan) {
 void run_confirm(const GapOptions& o) {
   check_out(o.out, kAnswerFiles);
   const Question q(o.question());
-  const auto simulable = [](const Observation& row) { return row.role == "check" && row.apparatus != "bench"; };
+  const auto simulable = [](const Observation& row) { return row.role == "check" && find_rig(row.apparatus); };
   if (std::none_of(q.table.rows.begin(), q.table.rows.end(), simulable))
     throw BadInput(o.table, 0, "holds no row of role check that a rig can simulate",
-                   "mark held-out tests of mixer, shear box, heap or drum: the shrink is measured on them");
+                   fmt::format("mark held-out tests of {}: the shrink is measured on them", rig_names()));
   const Isolability i = isolability(q.before_data(), q.inputs.settings);
   Diagnosis d = diagnosis_of(o, q, i);
   json provenance = provenance_of(o, q);
@@ -198,7 +196,7 @@ void run_confirm(const GapOptions& o) {
     return;
   }
   const std::string runs = o.runs.empty() ? (fs::path(o.out) / "runs").string() : o.runs;
-  const Plan plan = plan_confirmation({o.rig_file(), o.root, runs, o.seeds, o.vars}, q, d, i, d.notes);
+  const Plan plan = plan_confirmation({o.root, runs, o.seeds, o.vars}, q, d, i, d.notes);
   for (const PlannedRun& run : plan.runs) {
     // seen from the rig's folder, so that the answer speaks of no machine
     std::vector<std::string> words = run.command;
@@ -266,8 +264,7 @@ LibraryPlan library_plan(const GapOptions& o) {
     throw BadInput(o.table, 0, "is no file", "name a plan, such as libraries/millet/plan.toml");
   const InputFiles files =
       InputFiles{fs::path(o.table).parent_path().string(), o.files.effects, o.files.settings}.completed();
-  const std::string rigs = o.rigs.empty() ? (fs::path(files.settings).parent_path() / "rigs.toml").string() : o.rigs;
-  return LibraryPlan::read(o.table, read_effects(files.effects, Settings::read(files.settings)), rigs, o.root);
+  return LibraryPlan::read(o.table, read_effects(files.effects, Settings::read(files.settings)), o.root);
 }
 
 void run_plan_command(const GapOptions& o) {
@@ -304,6 +301,7 @@ CLI::Validator condition() {
 using Options = std::shared_ptr<GapOptions>;
 
 void add_library_options(CLI::App* c, const Options& o) {
+  add_rigs_option(c);
   c->add_option("--library", o->files.library, "response library (libraries/millet/)")->required();
   c->add_option("--effects", o->files.effects, "folder of effect files; without it effects/ beside the library");
   c->add_option("--settings", o->files.settings, "without it diagnosis.toml beside the library");
@@ -363,7 +361,6 @@ void add_confirm(CLI::App* gap, const Options& o) {
   add_question_options(c, o);
   add_answer_options(c, o);
   c->add_option("--out", o->out, "folder for the answer")->required();
-  c->add_option("--rigs", o->rigs, "how a test becomes a run; without it rigs.toml beside the settings");
   c->add_option("--root", o->root, "folder that holds cases/ and materials/")->capture_default_str();
   c->add_option("--runs", o->runs, "where the run folders go; without it OUT/runs");
   c->add_option("--seeds", o->seeds, "runs of each")->check(CLI::Range(1, 1000))->capture_default_str();
@@ -389,8 +386,8 @@ void add_predict(CLI::App* gap, const Options& o) {
       "--fill "
       "0.2");
   add_library_options(c, o);
-  c->add_option("--apparatus", o->apparatus, "mixer, shearbox, repose, drum")->capture_default_str();
-  c->add_option("--observable", o->observable, "of doc/reference/formats.md")->capture_default_str();
+  c->add_option("--apparatus", o->apparatus, rig_names())->capture_default_str();
+  c->add_option("--observable", o->observable, "of the apparatus, as `vielto rigs` lists them")->capture_default_str();
   for (const NamedCondition& at : kConditions) {
     std::string option = std::string("--") + at.name;
     std::replace(option.begin(), option.end(), '_', '-');
@@ -415,7 +412,7 @@ void add_plan_options(CLI::App* c, const Options& o) {
   c->add_option("PLAN", o->table, "plan of the library, such as libraries/millet/plan.toml")->required();
   c->add_option("--effects", o->files.effects, "folder of effect files; without it effects/ beside the plan's folder");
   c->add_option("--settings", o->files.settings, "without it diagnosis.toml beside the plan's folder");
-  c->add_option("--rigs", o->rigs, "how a test becomes a run; without it rigs.toml beside the settings");
+  add_rigs_option(c);
   c->add_option("--root", o->root, "folder that holds cases/ and materials/")->capture_default_str();
 }
 

@@ -17,6 +17,7 @@ int main(int argc, char** argv) {
   vielto::add_gap_command(app);
   vielto::add_import_command(app);
   vielto::add_report_command(app);
+  vielto::add_rigs_command(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -7,6 +7,7 @@
 #include "commands.h"
 #include "core/bad_input.h"
 #include "core/record_file.h"
+#include "core/rig_table.h"
 #include "picture/render.h"
 #include "post.h"
 
@@ -30,7 +31,7 @@ void post(const PostOptions& options) {
   else if (rig == "drum")
     post_drum(path, options);
   else
-    throw BadInput(path.string(), 0, "the record is of rig '" + rig + "'", "name one of mixer, shearbox, repose, drum");
+    throw BadInput(path.string(), 0, "the record is of rig '" + rig + "'", "name a record of " + rig_names());
 }
 
 }  // namespace
@@ -38,9 +39,9 @@ void post(const PostOptions& options) {
 fs::path record_path(const std::string& run) {
   const fs::path path(run);
   if (!fs::is_directory(path)) return path;
-  for (const char* name : {"shear.csv", "heap.csv", "bed_1.csv"})
-    if (fs::exists(path / name)) return path / name;
-  return path / "torque.csv";
+  for (const RigDescription& rig : apparatuses())
+    if (!rig.record.empty() && fs::exists(path / rig.record)) return path / rig.record;
+  throw BadInput(run, 0, "holds no record of a rig", "name a run folder with " + record_names());
 }
 
 void add_post_command(CLI::App& app) {
@@ -48,9 +49,7 @@ void add_post_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand("post",
                                          "from a run's record: mixing power and its numbers, shear stress and "
                                          "friction, angle of repose or of a bed in a drum");
-  command
-      ->add_option("RUN", options->run, "run folder, or the record in it (torque.csv, shear.csv, heap.csv, bed_1.csv)")
-      ->required();
+  command->add_option("RUN", options->run, "run folder, or the record in it (" + record_names() + ")")->required();
   command->add_option("--idle", options->idle, "run folder or torque.csv of the empty machine at the same speed");
   command->add_option("--turns", options->turns, "steady whole turns asked for")
       ->check(CLI::Range(kLeastAveragedTurns, 1000000))

@@ -5,6 +5,7 @@
     {program-page} vielto_laws              the Markdown that the program prints, but for its first heading and paragraph
     {parameters} cases/mixer/mixer.par      the lines of a parameter file or card: name, value, unit, (range,) u, source
     {effects} libraries/effects             one row an effect file
+    {observables} cases/rigs.toml           one row an observable of the table of rigs
 """
 import os
 import pathlib
@@ -76,6 +77,18 @@ class Effects(FromFile):
         return [table(["effect", "what it is", "kind", "range", "source of the range"], rows, code=1)]
 
 
+class Observables(FromFile):
+    def run(self):
+        stated = tomllib.loads(self.path().read_text(encoding="utf-8"))
+        any_apparatus = {"any": {"observables": stated.pop("observables")}}
+        rows = [
+            [apparatus, name, unit, meaning]
+            for apparatus, entry in {**stated, **any_apparatus}.items()
+            for name, (unit, meaning) in entry["observables"].items()
+        ]
+        return [table(["apparatus", "observable", "unit", "meaning"], rows, code=2)]
+
+
 class FromProgram(Directive):
     """A directive of one argument, a program in build/bin and words for it."""
 
@@ -118,6 +131,7 @@ class ProgramPage(FromProgram):
 def setup(app):
     app.add_directive("parameters", Parameters)
     app.add_directive("effects", Effects)
+    app.add_directive("observables", Observables)
     app.add_directive("command-help", CommandHelp)
     app.add_directive("program-page", ProgramPage)
     return {"parallel_read_safe": True}

@@ -14,8 +14,8 @@
 #include <string>
 #include <vector>
 
+#include "core/condition.h"
 #include "gap/emulator/gaussian_process.h"
-#include "gap/library/condition.h"
 #include "gap/library/effect.h"
 #include "gap/library/library.h"
 

@@ -8,8 +8,9 @@
 #include <filesystem>
 
 #include "core/bad_input.h"
+#include "core/condition.h"
 #include "core/csv.h"
-#include "gap/library/condition.h"
+#include "core/rig_table.h"
 
 namespace vielto::gap {
 namespace {
@@ -33,8 +34,8 @@ VarChange read_var(const TomlTable& t) {
   if (!rigs || rigs->empty()) t.refuse("rigs", "is no list", "write rigs = [\"mixer\"]");
   for (const toml::node& rig : *rigs) {
     const std::string name = rig.value_or<std::string>("");
-    if (name != "mixer" && name != "shearbox" && name != "repose" && name != "drum")
-      t.refuse("rigs", fmt::format("'{}' is no rig", name), "write mixer, shearbox, repose or drum");
+    if (!find_rig(name))
+      t.refuse("rigs", fmt::format("'{}' is no rig", name), fmt::format("write one of {}", rig_names()));
     var.rigs.push_back(name);
   }
   var.name = t.text("name");
@@ -150,7 +151,7 @@ Transform read_transform(const TomlTable& t) {
   transform.observable = t.text("observable");
   if (transform.observable != "*" && !observable_unit(transform.apparatus, transform.observable))
     t.refuse("observable", fmt::format("'{}' is no observable of {}", transform.observable, transform.apparatus),
-             "see doc/reference/observation_table.md");
+             "see vielto rigs");
   transform.operation = chosen<Operation>(t, "operation",
                                           {{"scale", Operation::scale},
                                            {"add", Operation::add},

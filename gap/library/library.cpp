@@ -10,10 +10,11 @@
 #include <set>
 
 #include "core/bad_input.h"
+#include "core/condition.h"
 #include "core/reduced_table.h"
+#include "core/rig_table.h"
 #include "core/sha256.h"
 #include "gap/library/columns.h"
-#include "gap/library/condition.h"
 
 namespace vielto::gap {
 namespace {
@@ -141,7 +142,7 @@ void read_tables(Library& library) {
 void check_seeds(const Library& library) {
   std::map<std::string, std::pair<int, const LibraryValue*>> counts;
   for (const LibraryValue& value : library.values) {
-    if (value.row.apparatus == "bench") continue;
+    if (!find_rig(value.row.apparatus)) continue;
     const std::string where =
         fmt::format("{} {} at {}", value.row.apparatus, value.row.observable, conditions_text(value.row));
     auto& entry = counts.try_emplace(where, 0, &value).first->second;

@@ -11,9 +11,9 @@
 #include <set>
 
 #include "core/bad_input.h"
+#include "core/condition.h"
 #include "core/sha256.h"
 #include "gap/library/columns.h"
-#include "gap/library/condition.h"
 #include "gap/library/library.h"
 #include "gap/library/sources.h"
 
@@ -102,10 +102,10 @@ bool same_setting(const std::string& a, const std::string& b) {
   return x && y ? std::fabs(*x - *y) <= 1e-8 * std::fabs(*y) : a == b;
 }
 
-void add_rig(LibraryPlan& plan, const TomlTable& t, const std::vector<Effect>& effects, const TomlTable& rigs_file,
-             const std::string& root, int seeds, const FamilyFile& family, const std::vector<std::size_t>& members) {
+void add_rig(LibraryPlan& plan, const TomlTable& t, const std::vector<Effect>& effects, const std::string& root,
+             int seeds, const FamilyFile& family, const std::vector<std::size_t>& members) {
   t.only({"name", "settings", "conditions", "members_at", "effect"});
-  const Rig rig = Rig::read(rigs_file, t.text("name"), root);
+  const Rig rig = Rig::read(t.text("name"), root);
   plan.rigs.push_back(rig);
   std::map<std::string, std::string> common;
   if (t.has("settings")) {
@@ -125,7 +125,7 @@ void add_rig(LibraryPlan& plan, const TomlTable& t, const std::vector<Effect>& e
     for (const auto& [name, value] : numbers_by_name(c)) {
       if (name == "seeds") continue;
       const auto var = rig.vars.find(name);
-      if (var == rig.vars.end()) c.refuse(name, "is no condition of this rig", "see libraries/rigs.toml");
+      if (var == rig.vars.end()) c.refuse(name, "is no condition of this rig", "see vielto rigs");
       conditions.back()[var->second] = number_text(value);
     }
   }
@@ -196,8 +196,7 @@ void add_rig(LibraryPlan& plan, const TomlTable& t, const std::vector<Effect>& e
 
 }  // namespace
 
-LibraryPlan LibraryPlan::read(const std::string& path, const std::vector<Effect>& effects, const std::string& rigs_file,
-                              const std::string& root) {
+LibraryPlan LibraryPlan::read(const std::string& path, const std::vector<Effect>& effects, const std::string& root) {
   const TomlTable file = TomlTable::read(path);
   file.only({"seeds", "family", "rig", "bench"});
   LibraryPlan plan;
@@ -219,12 +218,11 @@ LibraryPlan LibraryPlan::read(const std::string& path, const std::vector<Effect>
     members = places_of(t, "members", family.members.size(), "member of the family");
     plan.parameter_names = family.names;
   }
-  const TomlTable rigs = TomlTable::read(rigs_file);
-  for (const TomlTable& t : tables_of(file, "rig")) add_rig(plan, t, effects, rigs, root, seeds, family, members);
+  for (const TomlTable& t : tables_of(file, "rig")) add_rig(plan, t, effects, root, seeds, family, members);
   for (const TomlTable& t : tables_of(file, "bench")) {
     t.only({"observable", "rows"});
     const auto unit = observable_unit("bench", t.text("observable"));
-    if (!unit) t.refuse("observable", "is no bench observable", "see doc/reference/observation_table.md");
+    if (!unit) t.refuse("observable", "is no bench observable", "see vielto rigs");
     for (const TomlTable& r : tables_of(t, "rows")) {
       Observation row;
       row.apparatus = "bench";

@@ -9,7 +9,7 @@
 //   members_from = "PATH"                      optional, same columns: `members` are rows of this file. A new posterior
 //                                              within their range then needs no new runs
 //   [[rig]]
-//   name = "mixer"                             of libraries/rigs.toml
+//   name = "mixer"                             of cases/rigs.toml
 //   settings = {grainDiameter = "0.012"}       -var of all its runs
 //   conditions = [{speed = 0.48, fill = 0.1}]  each with its baseline; seeds = 8 in one: its own number of seeds
 //   members_at = [1]                           numbers of the conditions at which the members are run, one seed each
@@ -54,8 +54,7 @@ struct LibraryPlan {
   std::vector<std::map<std::string, double>> bench_parameters;
   std::vector<Rig> rigs;
 
-  static LibraryPlan read(const std::string& path, const std::vector<Effect>& effects, const std::string& rigs_file,
-                          const std::string& root);
+  static LibraryPlan read(const std::string& path, const std::vector<Effect>& effects, const std::string& root);
 };
 
 // The study table: run,rig,seed and one column for each -var.

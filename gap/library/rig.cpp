@@ -9,33 +9,27 @@
 
 #include "core/bad_input.h"
 #include "core/par_file.h"
+#include "core/rig_table.h"
 
 namespace vielto::gap {
 
 namespace fs = std::filesystem;
 
-Rig Rig::read(const TomlTable& file, const std::string& name, const std::string& root) {
-  if (!file.has(name)) file.refuse(name, "is missing", fmt::format("add [{}]", name));
-  const TomlTable t = file.table(name);
-  t.only({"folder", "script", "parameters", "includes", "wall", "vars", "post"});
+Rig Rig::read(const std::string& name, const std::string& root) {
+  const RigDescription* stated = find_rig(name);
+  if (!stated) throw BadInput(name, 0, "is no rig", fmt::format("name one of {}, or add it with --rigs", rig_names()));
   Rig rig;
   rig.name = name;
-  rig.folder = (fs::path(root) / t.text("folder")).lexically_normal().string();
-  rig.script = t.text("script");
-  const auto path_of = [&](const std::string& path) {
-    return (fs::path(rig.folder) / path).lexically_normal().string();
-  };
-  if (!fs::exists(path_of(rig.script)))
-    t.refuse("script", fmt::format("{}/{} is not there", rig.folder, rig.script),
-             "state --root, or a rig that can be run");
-  rig.files.push_back(path_of(rig.script));
-  if (t.has("post")) rig.post = t.text("post");
-  const TomlTable vars = t.table("vars");
-  for (const auto& entry : vars.raw())
-    rig.vars[std::string(entry.first.str())] = vars.text(std::string(entry.first.str()));
+  const fs::path script(stated->path(stated->script, root));
+  rig.folder = script.parent_path().string();
+  rig.script = script.filename().string();
+  rig.post = stated->post;
+  rig.vars = stated->vars;
+  if (!fs::exists(script)) throw BadInput(script.string(), 0, "is not there", "state --root, or a rig that can be run");
+  rig.files.push_back(script.string());
   const auto add = [&](const std::string& path, const std::string& prefix) {
-    rig.files.push_back(path_of(path));
-    const ParFile par = ParFile::read(path_of(path));
+    rig.files.push_back(stated->path(path, root));
+    const ParFile par = ParFile::read(rig.files.back());
     for (const Parameter& p : par.all()) {
       rig.known.insert(prefix + p.name);
       char* end = nullptr;
@@ -44,11 +38,9 @@ Rig Rig::read(const TomlTable& file, const std::string& name, const std::string&
       if (end != p.value.c_str() && *end == '\0') rig.base.emplace(prefix + p.name, value);
     }
   };
-  if (const toml::array* files = t.raw()["parameters"].as_array())
-    for (const toml::node& node : *files) add(node.value_or<std::string>(""), "");
-  if (t.has("wall")) add(t.text("wall"), "wall_");
-  if (const toml::array* files = t.raw()["includes"].as_array())
-    for (const toml::node& node : *files) rig.files.push_back(path_of(node.value_or<std::string>("")));
+  for (const std::string& file : stated->parameters) add(file, "");
+  if (!stated->wall.empty()) add(stated->wall, "wall_");
+  for (const std::string& file : stated->includes) rig.files.push_back(stated->path(file, root));
   return rig;
 }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Purpose: how a test becomes a run (libraries/rigs.toml): folder and script of a rig, the -var of each condition, and
-// where the baseline value of every -var stands.
+// Purpose: how a test becomes a run: folder and script of a rig (core/rig_table.h), the -var of each condition, and the
+// baseline value of every -var.
 //
-// Errors: BadInput for a rig without an entry, a script or a parameter file that is not there.
+// Errors: BadInput for a rig that there is not, a script or a parameter file that is not there.
 #pragma once
 
 #include <map>
@@ -23,8 +23,8 @@ struct Rig {
   std::map<std::string, double> base;       // of every -var with a number
   std::map<std::string, std::string> vars;  // condition -> -var
 
-  // `root`: the folder that the paths of `file` start from.
-  static Rig read(const TomlTable& file, const std::string& name, const std::string& root);
+  // `root`: the folder that holds cases/ and materials/.
+  static Rig read(const std::string& name, const std::string& root);
 
   // The -var of an effect at a strength, from the baseline values `base`. Empty at strength 0.
   // Errors: BadInput if the rig's files do not state such a -var, or no number for one that starts from it.

@@ -1,65 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "gap/library/settings.h"
 
-#include <fmt/format.h>
-
-#include <algorithm>
 #include <cmath>
-#include <filesystem>
-
-#include "core/bad_input.h"
 
 namespace vielto::gap {
-
-TomlTable TomlTable::read(const std::string& path) {
-  if (!std::filesystem::is_regular_file(path)) throw BadInput(path, 0, "cannot be read", "name an existing TOML file");
-  try {
-    return TomlTable(path, toml::parse_file(path));
-  } catch (const toml::parse_error& error) {
-    throw BadInput(path, static_cast<int>(error.source().begin.line), std::string(error.description()),
-                   "write it as TOML (toml.io)");
-  }
-}
-
-void TomlTable::refuse(const std::string& key, const std::string& what, const std::string& mend) const {
-  const toml::node* node = table_.get(key);
-  const auto line = node ? node->source().begin.line : table_.source().begin.line;
-  throw BadInput(path_, static_cast<int>(line), key, what, mend);
-}
-
-double TomlTable::number(const std::string& key, double low, double high) const {
-  const toml::node* node = table_.get(key);
-  if (!node) refuse(key, "is missing", fmt::format("state a number from {} to {}", low, high));
-  const auto value = node->is_number() ? node->value<double>() : std::nullopt;
-  if (!value || !std::isfinite(*value)) refuse(key, "is not a finite number", "write a number without quotes");
-  if (*value < low || *value > high)
-    refuse(key, fmt::format("{} is out of range", *value), fmt::format("state a number from {} to {}", low, high));
-  return *value;
-}
-
-double TomlTable::number_or(const std::string& key, double fallback, double low, double high) const {
-  return has(key) ? number(key, low, high) : fallback;
-}
-
-std::string TomlTable::text(const std::string& key) const {
-  const auto value = table_[key].value<std::string>();
-  if (!value || value->empty()) refuse(key, has(key) ? "is no text" : "is missing", "state it in quotes");
-  return *value;
-}
-
-TomlTable TomlTable::table(const std::string& key) const {
-  const toml::table* found = table_[key].as_table();
-  if (!found) refuse(key, has(key) ? "is no table" : "is missing", fmt::format("add [{}]", key));
-  return TomlTable(path_, *found);
-}
-
-void TomlTable::only(std::initializer_list<const char*> known) const {
-  for (const auto& [key, node] : table_) {
-    const std::string name(key.str());
-    if (std::find(known.begin(), known.end(), name) == known.end())
-      refuse(name, "is no key here", fmt::format("use {}", fmt::join(known, ", ")));
-  }
-}
 
 Settings Settings::read(const std::string& path) {
   const TomlTable file = TomlTable::read(path);

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The numbers the diagnosis takes as given (libraries/diagnosis.toml says what each means), and how TOML files are read
-// here.
+// The numbers the diagnosis takes as given (libraries/diagnosis.toml says what each means).
 //
 // Errors: BadInput with file and line for a missing or unknown key, a value of another type or out of its range.
 #pragma once
 
-#include <toml++/toml.h>
-
-#include <initializer_list>
 #include <string>
+
+#include "core/toml_table.h"
 
 namespace vielto::gap {
 
@@ -22,29 +20,6 @@ struct Settings {
   double false_discovery_rate = 0;
 
   static Settings read(const std::string& path);
-};
-
-// A table of a TOML file with typed access that says where a fault is.
-class TomlTable {
- public:
-  // Reads the whole file.
-  static TomlTable read(const std::string& path);
-  TomlTable(std::string path, const toml::table& table) : path_(std::move(path)), table_(table) {}
-
-  bool has(const std::string& key) const { return table_.contains(key); }
-  double number(const std::string& key, double low, double high) const;
-  double number_or(const std::string& key, double fallback, double low, double high) const;
-  std::string text(const std::string& key) const;
-  TomlTable table(const std::string& key) const;
-  const toml::table& raw() const { return table_; }
-  // Refuses every key that is not among `known`.
-  void only(std::initializer_list<const char*> known) const;
-  [[noreturn]] void refuse(const std::string& key, const std::string& what, const std::string& mend) const;
-  const std::string& path() const { return path_; }
-
- private:
-  std::string path_;
-  toml::table table_;
 };
 
 }  // namespace vielto::gap

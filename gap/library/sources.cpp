@@ -10,8 +10,8 @@
 #include <map>
 
 #include "core/bad_input.h"
+#include "core/condition.h"
 #include "gap/library/columns.h"
-#include "gap/library/condition.h"
 
 namespace vielto::gap {
 namespace {

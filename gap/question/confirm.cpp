@@ -19,9 +19,10 @@
 #include <tuple>
 
 #include "core/bad_input.h"
+#include "core/condition.h"
 #include "core/csv.h"
+#include "core/rig_table.h"
 #include "core/sha256.h"
-#include "gap/library/condition.h"
 #include "gap/library/rig.h"
 
 namespace vielto::gap {
@@ -159,7 +160,7 @@ void add_variants(const Question& question, const Diagnosis& d, const Isolabilit
   }
 }
 
-bool is_simulated(const Observation& row) { return row.role == "check" && row.apparatus != "bench"; }
+bool is_simulated(const Observation& row) { return row.role == "check" && find_rig(row.apparatus); }
 
 std::map<std::string, std::string> settings_asked(const std::vector<std::string>& texts) {
   std::map<std::string, std::string> asked;
@@ -205,12 +206,11 @@ void check_settings(const std::map<std::string, std::string>& asked, const Check
 
 CheckRigs rigs_of(const ConfirmationRequest& request, const Question& question, std::vector<std::string>& notes) {
   const std::map<std::string, std::string> asked = settings_asked(request.settings);
-  const TomlTable file = TomlTable::read(request.rigs);
   CheckRigs rigs;
   for (const Observation& row : question.model.rows) {
     if (!is_simulated(row) || rigs.count(row.apparatus)) continue;
     CheckRig& check = rigs[row.apparatus];
-    check.rig = Rig::read(file, row.apparatus, request.root);
+    check.rig = Rig::read(row.apparatus, request.root);
     check.settings = library_settings(question.inputs.library.folder, row.apparatus, notes);
     for (const auto& [name, value] : asked)
       if (check.rig.known.count(name)) check.settings[name] = value;

@@ -2,7 +2,7 @@
 // Purpose: the proof. The check tests are simulated again with the effect at its estimated strength; beside it, on the
 // same tests, the baseline, recalibration alone, and a placebo (the best effect from outside the group).
 //
-// A plan holds one `liggghts -in ... -var ...` for every check test, variant and seed (libraries/rigs.toml says how a
+// A plan holds one `liggghts -in ... -var ...` for every check test, variant and seed (cases/rigs.toml says how a
 // test becomes a run). Effects on the measurement chain need no run of their own: they transform what the recalibrated
 // baseline shows; a shift of a condition is a run at the shifted condition. Runs that are complete (run.json there) are
 // not made again; one that was made by another command or from other files is refused, complete or not. `effects` are
@@ -50,7 +50,7 @@ struct Plan {
 };
 
 struct ConfirmationRequest {
-  std::string rigs, root;             // libraries/rigs.toml, and the folder that its paths start from
+  std::string root;                   // folder that holds cases/ and materials/
   std::string runs;                   // where the run folders go
   int seeds = 1;                      // of each run
   std::vector<std::string> settings;  // further NAME=VALUE, for all rigs that have such a -var
@@ -58,7 +58,7 @@ struct ConfirmationRequest {
 
 // Runs have the settings that the library's own runs of the rig have (plan.toml in the library's folder; `notes` says
 // so if there is none), so that what is confirmed is the baseline that was diagnosed; the question's known effects are
-// in every run. Errors: BadInput for a rig without an entry, a script that is not there, a setting that no rig has or
+// in every run. Errors: BadInput for a rig that there is not, a script that is not there, a setting that no rig has or
 // whose value is no number where the rig states one, and a blank in the path of the runs, at which LIGGGHTS would split
 // it.
 Plan plan_confirmation(const ConfirmationRequest& request, const Question& question, const Diagnosis& diagnosis,

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "core/bad_input.h"
-#include "gap/library/condition.h"
+#include "core/condition.h"
 
 namespace vielto::gap {
 namespace {

@@ -9,7 +9,7 @@
 #include <numeric>
 #include <set>
 
-#include "gap/library/condition.h"
+#include "core/condition.h"
 
 namespace vielto::gap {
 namespace {

@@ -6,7 +6,7 @@
 #include <map>
 #include <set>
 
-#include "gap/library/condition.h"
+#include "core/condition.h"
 #include "gap/verdict/regions.h"
 
 namespace vielto::gap {

@@ -12,57 +12,21 @@
 #include <utility>
 
 #include "core/bad_input.h"
+#include "core/condition.h"
 #include "core/csv.h"
+#include "core/rig_table.h"
 
 namespace vielto {
 namespace {
 
-const std::string kHeader =
-    "test,role,apparatus,observable,value,u,unit,speed,fill,moisture,normal_stress,shear_velocity,tilt,wall,material";
+// Columns before the conditions; wall and material come after them.
+constexpr std::size_t kFirst = 7;
+const std::string kHeader = [] {
+  std::string text = "test,role,apparatus,observable,value,u,unit";
+  for (const NamedCondition& c : kConditions) text += std::string(",") + c.name;
+  return text + ",wall,material";
+}();
 const std::string kCovarianceHeader = "test_a,observable_a,test_b,observable_b,covariance";
-
-struct Observable {
-  const char* apparatus;
-  const char* name;
-  const char* unit;
-};
-
-constexpr Observable kObservables[] = {
-    {"mixer", "power_loaded", "W"},
-    {"mixer", "power_idle", "W"},
-    {"mixer", "power", "W"},
-    {"mixer", "torque_ripple", "1"},
-    {"shearbox", "shear_stress_peak", "Pa"},
-    {"shearbox", "shear_stress_steady", "Pa"},
-    {"shearbox", "plate_force_fluctuation", "1"},
-    {"repose", "angle", "deg"},
-    {"drum", "angle", "deg"},
-    {"drum", "angle_mid", "deg"},
-    {"drum", "angle_upper", "deg"},
-    {"drum", "angle_lower", "deg"},
-    {"bench", "shaft_speed", "1/s"},
-    {"bench", "loaded_mass", "kg"},
-    {"bench", "zero_drift", "W"},
-    {"bench", "dead_weight_gain", "1"},
-    {"bench", "restitution", "1"},
-    {"bench", "wall_angle", "deg"},
-};
-
-// Conditions with the range a value must lie in.
-struct Condition {
-  const char* name;
-  std::optional<double> Observation::*member;
-  double low, high;
-};
-
-constexpr Condition kConditions[] = {
-    {"speed", &Observation::speed, 0, 1e6},
-    {"fill", &Observation::fill, 0, 1},
-    {"moisture", &Observation::moisture, 0, 1},
-    {"normal_stress", &Observation::normal_stress, 0, 1e12},
-    {"shear_velocity", &Observation::shear_velocity, 0, 1e6},
-    {"tilt", &Observation::tilt, -90, 90},
-};
 
 using Key = std::pair<std::string, std::string>;
 
@@ -112,7 +76,7 @@ class TableCheck {
     if (!std::isfinite(row.value)) place.refuse("value", "is not finite", "state a finite value");
     if (!(row.u * row.u > 0) || !(row.u > 0) || !std::isfinite(row.u * row.u))
       place.refuse("u", fmt::format("{} is no standard uncertainty", row.u), "state one above 0");
-    for (const Condition& c : kConditions) {
+    for (const NamedCondition& c : kConditions) {
       const auto& value = row.*c.member;
       if (value && !(*value >= c.low && *value <= c.high))
         place.refuse(c.name, fmt::format("{} is out of range", *value),
@@ -123,14 +87,13 @@ class TableCheck {
 
  private:
   void refuse_observable(const Observation& row, const Place& place) const {
-    std::string names;
-    for (const Observable& o : kObservables)
-      if (row.apparatus == o.apparatus) names += fmt::format("{}, ", o.name);
+    std::vector<std::string> names;
+    for (const NamedObservable& o : observables_of(row.apparatus)) names.push_back(o.name);
     if (names.empty())
       place.refuse("apparatus", fmt::format("'{}' is no apparatus", row.apparatus),
-                   "write mixer, shearbox, repose, drum or bench");
+                   fmt::format("write one of {}", apparatus_names()));
     place.refuse("observable", fmt::format("'{}' is no observable of {}", row.observable, row.apparatus),
-                 fmt::format("write one of {}bulk_density", names));
+                 fmt::format("write one of {}", fmt::join(names, ", ")));
   }
 
   void add_to_test(const Observation& row, const Place& place) {
@@ -147,7 +110,7 @@ class TableCheck {
         place.refuse(column, fmt::format("differs from line {} of the same test '{}'", other_line, row.test),
                      "give the rows of one test the same conditions, or two names");
     };
-    for (const Condition& c : kConditions) same(c.name, row.*c.member == other.*c.member);
+    for (const NamedCondition& c : kConditions) same(c.name, row.*c.member == other.*c.member);
     same("wall", row.wall == other.wall);
     same("material", row.material == other.material);
   }
@@ -185,27 +148,21 @@ Observation parsed(const Place& place, const std::vector<std::string_view>& f) {
   row.value = place.number("value", f[4]);
   row.u = place.number("u", f[5]);
   row.unit = f[6];
-  std::size_t column = 7;
-  for (const Condition& c : kConditions) {
+  std::size_t column = kFirst;
+  for (const NamedCondition& c : kConditions) {
     const std::string_view field = f[column++];
     if (!field.empty()) row.*c.member = place.number(c.name, field);
   }
-  row.wall = f[13];
-  row.material = f[14];
+  row.wall = f[column];
+  row.material = f[column + 1];
   return row;
 }
 
 }  // namespace
 
 std::optional<std::string> observable_unit(const std::string& apparatus, const std::string& observable) {
-  bool known = false;
-  for (const Observable& o : kObservables) {
-    if (apparatus != o.apparatus) continue;
-    known = true;
-    if (observable == o.name) return o.unit;
-  }
-  if (known && observable == "bulk_density") return "kg/m3";
-  return std::nullopt;
+  const NamedObservable* found = find_observable(apparatus, observable);
+  return found ? std::optional(found->unit) : std::nullopt;
 }
 
 std::vector<Observation> read_observations(const std::string& path) {
@@ -260,7 +217,7 @@ void write_observations(const std::string& path, const std::vector<Observation>&
     check.add(row, Place{path, ++line});
     text += fmt::format("{},{},{},{},{},{},{}", row.test, row.role, row.apparatus, row.observable,
                         number_text(row.value), number_text(row.u), row.unit);
-    for (const Condition& c : kConditions) text += "," + (row.*c.member ? number_text(*(row.*c.member)) : "");
+    for (const NamedCondition& c : kConditions) text += "," + (row.*c.member ? number_text(*(row.*c.member)) : "");
     text += fmt::format(",{},{}\n", row.wall, row.material);
   }
   write_whole_file(path, text);

@@ -6,13 +6,7 @@
 // observable); the rows of a test share its conditions (speed ... material). `u` is the standard uncertainty (k = 1) of
 // `value`, > 0.
 //
-// Observables and their units (any apparatus may also state bulk_density, kg/m3):
-//   mixer     power_loaded, power_idle, power (W), torque_ripple (1)
-//   shearbox  shear_stress_peak, shear_stress_steady (Pa), plate_force_fluctuation (1)
-//   repose    angle (deg)
-//   drum      angle, angle_mid, angle_upper, angle_lower (deg)
-//   bench     shaft_speed (1/s), loaded_mass (kg), zero_drift (W), dead_weight_gain (1), restitution (1),
-//             wall_angle (deg)
+// Apparatuses with their observables and units: core/rig_table.h. Conditions with units and ranges: core/condition.h.
 //
 // Errors shared by rows stand in a covariance file beside it: test_a,observable_a,test_b,observable_b,covariance.
 //

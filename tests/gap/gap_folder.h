@@ -31,7 +31,7 @@ class GapFolder : public testing::Test {
     folder_ = fs::temp_directory_path() / fmt::format("gap_{}_{}_{}", info->test_suite_name(), info->name(), getpid());
     fs::remove_all(folder_);
     fs::create_directories(folder_ / "library");
-    for (const char* name : {"effects", "diagnosis.toml", "next_tests.toml", "rigs.toml"})
+    for (const char* name : {"effects", "diagnosis.toml", "next_tests.toml"})
       fs::copy(fs::path(VIELTO_SOURCE_DIR) / "libraries" / name, folder_ / name, fs::copy_options::recursive);
   }
   void TearDown() override { std::filesystem::remove_all(folder_); }

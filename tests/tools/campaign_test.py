@@ -38,8 +38,15 @@ from tools import rigs  # noqa: E402
 from tools.campaign import finished  # noqa: E402
 
 
+RIG_OF = rigs.read()
+
+
+def work(point):
+    return RIG_OF[point["rig"]].work(point)
+
+
 def share(faster, slower):
-    return rigs.work(slower) / rigs.work(faster)
+    return work(slower) / work(faster)
 
 
 # what the time left rests on: grains times steps
@@ -174,7 +181,7 @@ with tempfile.TemporaryDirectory(prefix="vielto-campaign-") as name:
     assert (
         missing.returncode == 2 and "there is no study nonsense; known: " in missing.stderr and "grid" in missing.stderr
     ), missing
-    assert rigs.work({"rig": "mixer", "speed": "0"}) == 0 and rigs.work({"rig": "mixer", "youngsModulus": "-1"}) == 0
+    assert work({"rig": "mixer", "speed": "0"}) == 0 and work({"rig": "mixer", "youngsModulus": "-1"}) == 0
     study.write_text("run,rig,speed\na,mixer,-1\n")
     failed = subprocess.run(campaign(study, folder / "failed"), capture_output=True, text=True)
     assert failed.returncode == 1 and "not all runs ended well" in failed.stderr, failed

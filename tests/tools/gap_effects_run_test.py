@@ -106,8 +106,6 @@ with tempfile.TemporaryDirectory(prefix="vielto-effects-") as name:
             ROOT / "libraries/effects",
             "--settings",
             ROOT / "libraries/diagnosis.toml",
-            "--rigs",
-            ROOT / "libraries/rigs.toml",
             "--root",
             ROOT,
             "--out",

@@ -37,8 +37,7 @@ class Portion(unittest.TestCase):
         gap = self.folder / "libraries"
         (gap / "millet").mkdir(parents=True)
         shutil.copytree(ROOT / "libraries/effects", gap / "effects")
-        for name in ("diagnosis.toml", "rigs.toml"):
-            shutil.copy(ROOT / "libraries" / name, gap / name)
+        shutil.copy(ROOT / "libraries/diagnosis.toml", gap)
         for name in ("cases", "materials", "liggghts_addons"):  # the runs' inputs, which the test changes
             shutil.copytree(ROOT / name, self.folder / name, ignore=shutil.ignore_patterns("results"))
         (gap / "millet/plan.toml").write_text(PLAN)

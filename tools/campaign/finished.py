@@ -6,7 +6,7 @@ import os
 import re
 import shutil
 
-from tools import ROOT, files, rigs, tables
+from tools import ROOT, files, tables
 
 
 def share_done(out, point):
@@ -23,13 +23,13 @@ def share_done(out, point):
         return 0.0
 
 
-def work_done(out, points):
+def work_done(rigs, out, points):
     """Work of the runs, in any unit: (done, in all)."""
-    done = sum(rigs.work(p) * share_done(out, p) for p in points)
-    return done, sum(rigs.work(p) for p in points) or 1.0
+    work = {p["run"]: rigs[p["rig"]].work(p) for p in points}
+    return sum(work[p["run"]] * share_done(out, p) for p in points), sum(work.values()) or 1.0
 
 
-def stale_runs(out, points):
+def stale_runs(rigs, out, points):
     """(run, why) of finished runs that were made from other files or with other settings than there are now."""
     now = {}
     for point in points:
@@ -37,7 +37,7 @@ def stale_runs(out, points):
             made = json.loads((out / "runs" / point["run"] / "run.json").read_text())
         except (OSError, ValueError):
             continue
-        why = _other_settings(point, made) or _other_file(point, made, now)
+        why = _other_settings(point, made) or _other_file(rigs[point["rig"]], point, made, now)
         if why:
             yield point["run"], why
 
@@ -51,25 +51,25 @@ def _other_settings(point, made):
     return None
 
 
-def _other_file(point, made, now):
+def _other_file(rig, point, made, now):
     """`now` remembers the files' hashes."""
     if point.get("materials"):
         return None
     for name, known in made["hashes"].items():
-        path = _file_of(name, point["rig"])
+        path = _file_of(name, rig)
         if path is None:
             continue
         if path not in now:
             now[path] = hashlib.sha256(path.read_bytes()).hexdigest()
         if now[path] != known:
-            return f"from another {path.relative_to(ROOT)}"
+            return f"from another {os.path.relpath(path, ROOT)}"
     return None
 
 
 def _file_of(name, rig):
-    """The repository's file of a run's hash: run.json has its path from the rig's folder."""
-    path = (ROOT / "cases" / rig / name).resolve()
-    return path if path.exists() and path.is_relative_to(ROOT) else None
+    """The file of a run's hash: run.json has its path from the rig's folder."""
+    path = (rig.script.parent / name).resolve()
+    return path if path.exists() else None
 
 
 def forget(out, run):
@@ -78,7 +78,7 @@ def forget(out, run):
         path.unlink(missing_ok=True)
 
 
-def gather(out, study):
+def gather(rigs, out, study):
     """observations.csv and runs.csv (all that post tells, a row a run) of the runs that are there; the others' names."""
     header, observations, runs, missing = [], [], [], set()
     for point in study:
@@ -89,7 +89,8 @@ def gather(out, study):
         table = tables.read(path, ["test"], "remove it and call the campaign again", may_be_empty=True)
         header = table.header
         observations += table
-        runs.append({**point, **_told(out / "runs" / point["run"] / "post" / f"{rigs.RESULT[point['rig']]}.json")})
+        result = rigs[point["rig"]].result
+        runs.append({**point, **(_told(out / "runs" / point["run"] / "post" / result) if result else {})})
     if runs:
         tables.write(out / "observations.csv", header, observations)
         tables.write(out / "runs.csv", list(dict.fromkeys(k for row in runs for k in row)), runs)

@@ -8,7 +8,7 @@ import signal
 import subprocess
 import time
 
-from tools import ROOT, campaign, command_line
+from tools import ROOT, campaign, command_line, rigs
 from tools.campaign import finished, study
 from tools.errors import BadInput, RunFailed
 
@@ -37,6 +37,7 @@ def add_options(parser):
     parser.add_argument(
         "--again", action="store_true", help="make runs anew that were made from other files or settings"
     )
+    parser.add_argument("--rigs", type=pathlib.Path, metavar="FILE", help="table of rigs of your own (cases/rigs.toml)")
     parser.add_argument("--every", type=float, default=60, help="seconds between two lines of progress")
 
 
@@ -45,7 +46,8 @@ def work(options):
     table = pathlib.Path(study.find(options.study)).resolve()
     if options.slurm and not shutil.which("sbatch"):
         raise BadInput("--slurm needs sbatch, which is not on the PATH; install slurm-client or leave --slurm out")
-    every = study.read(table)
+    known = rigs.read(options.rigs)
+    every = study.read(table, known)
     points = [p for p in every if p["run"].endswith(options.only)]
     if not points:
         raise BadInput(f"no run of {table} ends in {options.only}; --only takes the end of runs' names")
@@ -53,9 +55,9 @@ def work(options):
         subprocess.run([ROOT / "scripts/install-packages", "demo", "campaign"], check=True)
         subprocess.run([ROOT / "scripts/build", "release", "vielto", "vielto_run"], check=True)
     out = (options.out or ROOT / "results/studies" / table.stem).resolve()
-    make_ready(out, points, options.again)
-    status = run_all(out, points, options, table)
-    missing = finished.gather(out, every) & {p["run"] for p in points}
+    make_ready(known, out, points, options.again)
+    status = run_all(known, out, points, options, table)
+    missing = finished.gather(known, out, every) & {p["run"] for p in points}
     if (out / "observations.csv").exists():
         print(f"table: {os.path.relpath(out / 'observations.csv')}")
     if status or missing:
@@ -64,13 +66,13 @@ def work(options):
     return 0
 
 
-def make_ready(out, points, again):
+def make_ready(known, out, points, again):
     """The folder, without runs that are out of date and without the tables, which are made at the end."""
     try:
         out.mkdir(parents=True, exist_ok=True)
     except OSError as e:
         raise BadInput(f"{out}: cannot be made: {e.strerror}; state another folder with --out")
-    stale = list(finished.stale_runs(out, points))
+    stale = list(finished.stale_runs(known, out, points))
     if stale and not again:
         raise BadInput(
             f"{out}: finished runs out of date: {len(stale)}; {stale[0][0]} was made {stale[0][1]}; "
@@ -82,10 +84,11 @@ def make_ready(out, points, again):
         (out / name).unlink(missing_ok=True)
 
 
-def run_all(out, points, options, table):
+def run_all(known, out, points, options, table):
     """Snakemake's exit status."""
     command = ["snakemake", "--snakefile", HERE / "Snakefile", "--directory", out]
     command += ["--config", f"table={table}", f"out={out}", *([f"only={options.only}"] if options.only else [])]
+    command += [f"rigs={options.rigs.resolve()}"] if options.rigs else []
     command += ["--nolock", "--rerun-incomplete", "--rerun-triggers", "mtime", "--keep-going", "--quiet", "all"]
     command += ["--profile", HERE / "slurm"] if options.slurm else ["--cores", str(options.cores)]
     env = dict(
@@ -94,14 +97,14 @@ def run_all(out, points, options, table):
         OMPI_ALLOW_RUN_AS_ROOT="1",
         OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1",
     )
-    started, (first, _) = time.time(), finished.work_done(out, points)
+    started, (first, _) = time.time(), finished.work_done(known, out, points)
     engine = None
     try:
         with open(out / "snakemake.log", "a") as log:
             # in a session of its own: when this command is told to end, all that it started ends with it
             engine = subprocess.Popen(command, env=env, stdout=log, stderr=log, start_new_session=True)
         while engine.poll() is None:
-            tell_progress(out, points, started, first)
+            tell_progress(known, out, points, started, first)
             try:
                 engine.wait(options.every)
             except subprocess.TimeoutExpired:
@@ -111,12 +114,12 @@ def run_all(out, points, options, table):
             os.killpg(engine.pid, signal.SIGKILL)  # runs begin anew or go on from a restart, as after any kill
             engine.wait()
         raise
-    tell_progress(out, points, started, first)
+    tell_progress(known, out, points, started, first)
     return engine.returncode
 
 
-def tell_progress(out, points, started, first):
-    done, total = finished.work_done(out, points)
+def tell_progress(known, out, points, started, first):
+    done, total = finished.work_done(known, out, points)
     ended = sum((out / "done" / p["run"]).exists() for p in points)
     minutes = (time.time() - started) * (total - done) / (done - first) / 60 if done > first else None
     left = "" if minutes is None else f", {minutes:.0f} min left"

@@ -3,7 +3,7 @@
 default). The column `bed` names another run of the study, whose bed is sheared."""
 import re
 
-from tools import ROOT, rigs, tables
+from tools import ROOT, tables
 from tools.errors import BadInput
 
 MEND = "give `run,rig` and one column for each -var"
@@ -20,13 +20,13 @@ def find(name):
     return name
 
 
-def read(path):
-    """Its runs, checked: each row {column: cell} without the empty cells."""
+def read(path, rigs):
+    """Its runs, checked against {name: rig}: each row {column: cell} without the empty cells."""
     table = tables.read(path, ["run", "rig"], MEND, key="run")
     names = {row["run"] for row in table}
     for row in table:
-        if not row["run"] or row["rig"] not in rigs.NAMES:
-            raise row.fault(f"a run needs a name in `run` and one of {', '.join(rigs.NAMES)} in `rig`")
+        if not row["run"] or row["rig"] not in rigs:
+            raise row.fault(f"a run needs a name in `run` and one of {', '.join(rigs)} in `rig`")
         if not re.fullmatch(r"[A-Za-z0-9][A-Za-z0-9._-]*", row["run"]) or row["run"].startswith("idle_"):
             raise row.fault(
                 f"'{row['run']}' is no name for a run; use letters, digits, '.', '_' and '-', and not idle_ in front"

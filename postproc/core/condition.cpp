@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "gap/library/condition.h"
+#include "core/condition.h"
 
 #include <fmt/format.h>
 
-namespace vielto::gap {
+namespace vielto {
 
 std::string conditions_text(const Observation& row) {
   std::string text;
@@ -12,4 +12,4 @@ std::string conditions_text(const Observation& row) {
   return text;
 }
 
-}  // namespace vielto::gap
+}  // namespace vielto

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The table of rigs through the real command line: `vielto rigs`, and a rig of a user's own, which no program knows
+// when it is compiled, in an observation table, an effect and the plan of a response library.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+const char* const kHopper = R"([hopper]
+title = "steep hopper"
+script = "in.hopper"
+parameters = ["hopper.par"]
+record = "hopper.csv"
+result = "hopper.json"
+conditions = {moisture = "wetness"}
+work = "volume * seconds"
+[hopper.observables]
+outflow = ["kg/s", "mass flow"]
+)";
+
+class Rigs : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::temp_directory_path() / fmt::format("vielto_rigs_{}", getpid());
+    fs::create_directories(folder_);
+    write("own.toml", kHopper);
+    write("in.hopper", "print hopper\n");
+    write("hopper.par", "variable volume index 0.01 # m3 | - | a test\nvariable wetness index 0 # 1 | - | a test\n");
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  void write(const std::string& name, const std::string& text) {
+    fs::create_directories((folder_ / name).parent_path());
+    std::ofstream(folder_ / name, std::ios::binary) << text;
+  }
+  std::string read(const std::string& name) {
+    std::ifstream in(folder_ / name);
+    std::ostringstream text;
+    text << in.rdbuf();
+    return text.str();
+  }
+  int vielto(const std::string& arguments) {
+    return WEXITSTATUS(std::system(
+        fmt::format("cd '{}' && '{}/vielto' {} >out 2>err", folder_.string(), VIELTO_BIN_DIR, arguments).c_str()));
+  }
+  void expect_refused(const std::string& arguments, const std::string& why) {
+    EXPECT_EQ(vielto(arguments), 2) << arguments;
+    const std::string said = read("err");
+    EXPECT_NE(said.find(why), std::string::npos) << "expected: " << why << "\ngot: " << said;
+    EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 1) << said;
+  }
+
+  fs::path folder_;
+};
+
+// Scripts, pages and programs rest on what this prints.
+TEST_F(Rigs, TheTableIsPrintedAsJson) {
+  ASSERT_EQ(vielto("rigs --json"), 0) << read("err");
+  const json table = json::parse(read("out"));
+  EXPECT_EQ(table["schema"], 1);
+  std::vector<std::string> rigs;
+  for (const json& rig : table["apparatuses"])
+    if (rig.contains("script")) {
+      rigs.push_back(rig["name"]);
+      const fs::path root = VIELTO_SOURCE_DIR;
+      EXPECT_TRUE(fs::exists(root / rig["script"].get<std::string>())) << rig["script"];
+      for (const json& file : rig["files"]) EXPECT_TRUE(fs::exists(root / file.get<std::string>())) << file;
+      std::ifstream script(root / rig["script"].get<std::string>());
+      std::ostringstream text;
+      text << script.rdbuf();
+      // what the table says of a script is in the script
+      for (const auto& [condition, var] : rig["conditions"].items())
+        EXPECT_NE(text.str().find(var.get<std::string>()), std::string::npos) << rig["name"] << " " << var;
+    }
+  for (const char* name : {"mixer", "shearbox", "repose", "drum"})
+    EXPECT_EQ(std::count(rigs.begin(), rigs.end(), name), 1) << name;
+  EXPECT_EQ(table["conditions"][0]["name"], "speed");
+  EXPECT_EQ(table["observables"][0]["name"], "bulk_density");
+}
+
+TEST_F(Rigs, PeopleReadTheSameTable) {
+  ASSERT_EQ(vielto("rigs"), 0);
+  for (const char* text : {"mixer: ", "cases/mixer/in.mixer", "torque_ripple", "(-var normalStress)", "kg/m3"})
+    EXPECT_NE(read("out").find(text), std::string::npos) << text;
+}
+
+TEST_F(Rigs, AnOwnRigIsOneMore) {
+  ASSERT_EQ(vielto("rigs --json --rigs own.toml"), 0) << read("err");
+  const json table = json::parse(read("out"));
+  const json& own = table["apparatuses"].back();
+  EXPECT_EQ(own["name"], "hopper");
+  EXPECT_EQ(own["script"], "in.hopper");
+  EXPECT_EQ(own["conditions"]["moisture"], "wetness");
+  EXPECT_EQ(own["observables"][0]["unit"], "kg/s");
+}
+
+TEST_F(Rigs, AnOwnRigsTestsAreAnObservationTable) {
+  const std::string rows =
+      "test,role,apparatus,observable,value,u,unit,speed,fill,moisture,normal_stress,shear_velocity,tilt,wall,"
+      "material\n"
+      "a,fit,hopper,outflow,{},0.1,kg/s,,,0.1,,,,,millet\n";
+  write("a.csv", fmt::format(fmt::runtime(rows), 2));
+  write("b.csv", fmt::format(fmt::runtime(rows), 3));
+  ASSERT_EQ(vielto("compare a.csv b.csv --rigs own.toml"), 0) << read("err");
+  EXPECT_NE(read("out").find("outflow"), std::string::npos);
+  expect_refused("compare a.csv b.csv",
+                 "a.csv, line 2, column apparatus: 'hopper' is no apparatus; write one of mixer");
+}
+
+TEST_F(Rigs, AnOwnRigIsPlannedWithAnEffectOfItsOwn) {
+  write(
+      "lib/effects/wet.toml",
+      "name = \"wet\"\nkind = \"dem\"\nunit = \"1\"\nprior_low = 0\nprior_high = 0.2\nsource = \"a test of the rigs\"\n"
+      "[[apply.var]]\nrigs = [\"hopper\"]\nname = \"volume\"\nrule = \"scale\"\nfactor = 1\n");
+  fs::copy(fs::path(VIELTO_SOURCE_DIR) / "libraries/diagnosis.toml", folder_ / "lib/diagnosis.toml");
+  write("lib/own/plan.toml",
+        "seeds = 6\n[[rig]]\nname = \"hopper\"\nconditions = [{moisture = 0.1}]\n[[rig.effect]]\nname = \"wet\"\n"
+        "strengths = [0.1]\nat = [1]\n");
+  ASSERT_EQ(vielto("gap plan lib/own/plan.toml --rigs own.toml --out study.csv"), 0) << read("err");
+  const std::string study = read("study.csv");
+  EXPECT_EQ(study.substr(0, study.find('\n')), "run,rig,seed,volume,wetness");
+  EXPECT_NE(study.find("hopper1_wet0.1_s301,hopper,301,0.011,0.1"), std::string::npos) << study;
+  expect_refused("gap plan lib/own/plan.toml --out study2.csv", "rigs: 'hopper' is no rig; write one of mixer");
+}
+
+TEST_F(Rigs, AFaultyTableIsRefusedWithFileLineAndMend) {
+  const auto with = [&](const std::string& from, const std::string& to) {
+    std::string text = kHopper;
+    text.replace(text.find(from), from.size(), to);
+    write("bad.toml", text);
+  };
+  with("[hopper]\n", "[drum]\n[hopper]\n");
+  expect_refused("rigs --rigs bad.toml", "bad.toml, line 1, column drum: is the name of a rig that there is; name it");
+  with("moisture = ", "colour = ");
+  expect_refused("rigs --rigs bad.toml", "bad.toml, line 7, column colour: is no condition; use speed, fill, moisture");
+  with("[\"kg/s\", \"mass flow\"]", "[\"kg/s\"]");
+  expect_refused("rigs --rigs bad.toml", "column outflow: states no unit and meaning; write outflow = [");
+  with("title", "heading");
+  expect_refused("rigs --rigs bad.toml", "column heading: is no key here; use title");
+  expect_refused("rigs --rigs none.toml", "none.toml: cannot be read; name an existing TOML file");
+}
+
+}  // namespace
