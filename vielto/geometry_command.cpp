@@ -10,6 +10,7 @@
 #include "core/bad_input.h"
 #include "geometry/geometry_output.h"
 #include "geometry/stl.h"
+#include "rigs/rig_code.h"
 
 namespace vielto {
 namespace {

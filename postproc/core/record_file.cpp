@@ -118,7 +118,7 @@ std::string record_rig(const std::string& path) {
   Keys keys(path);
   std::string text;
   for (int line = 1; std::getline(in, text) && text.rfind("#", 0) == 0; ++line) keys.add(text, line);
-  return keys.has("rig") ? keys.text("rig") : "mixer";
+  return keys.text("rig");
 }
 
 }  // namespace vielto

@@ -71,7 +71,7 @@ class RecordFile {
   std::vector<std::string_view> fields_;
 };
 
-// The key `rig` of a record; "mixer" if it states none. Errors: BadInput if the file cannot be read.
+// The key `rig` of a record. Errors: BadInput if the file cannot be read or states none.
 std::string record_rig(const std::string& path);
 
 }  // namespace vielto

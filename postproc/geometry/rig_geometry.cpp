@@ -49,23 +49,4 @@ void GeometryInput::refuse(const std::string& name, const std::string& what, con
   throw BadInput(file_.path(), line, fmt::format("'{}' {}: {}", name, file_.text(name), what), mend);
 }
 
-RigGeometry rig_geometry(GeometryInput& input) {
-  const std::string& rig = input.choice("rig", {"mixer", "shearbox", "repose", "drum"});
-  RigGeometry geometry = rig == "mixer"      ? mixer_geometry(input)
-                         : rig == "shearbox" ? shearbox_geometry(input)
-                         : rig == "repose"   ? repose_geometry(input)
-                                             : drum_geometry(input);
-  std::size_t triangles = 0;
-  for (const Part& part : geometry.parts) {
-    triangles += part.triangles.size();
-    const double angle = measure(part.triangles).smallest_angle * 180 / kPi;
-    if (angle < 0.5)  // LIGGGHTS warns below 0.5 degrees and stops below 0.26
-      throw BadInput(input.path(), 0,
-                     fmt::format("the mesh '{}' has a triangle with an angle of {:.3f} deg", part.name, angle),
-                     "use fewer chords, or change the lengths that leave a sliver");
-  }
-  geometry.derived.emplace_back("triangles", fmt::format("{}", triangles));
-  return geometry;
-}
-
 }  // namespace vielto

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // What a rig's geometry is to the rest of the program: meshes to write, numbers derived from them, and a record of the
-// parameters they were made with. One NAME_geometry.cpp a rig.
+// parameters they were made with. One NAME_geometry.cpp a rig, in postproc/rigs/NAME.
 #pragma once
 
 #include <string>
@@ -54,30 +54,5 @@ struct RigGeometry {
   std::vector<std::pair<std::string, std::string>> derived;  // name, value (quoted if it has blanks)
   std::vector<std::string> notes;                            // lines for the person at the terminal
 };
-
-// Mixer: shaft axis along x through y = z = 0, gravity -z, drum half circle below z = 0, open top at z = drumHeight -
-// R. Angles count from +y towards +z, positive rotation about +x; a positive inclination pushes the grains towards +x.
-// Parts: drum, shaft, stems, paddle_1 ... A slice (slicePaddles >= 2) is periodic in x, 0 <= x <= slicePaddles *
-// drumLength / paddleCount; slicePaddles = 0 is the whole drum with both end walls. The drum's chords are inscribed:
-// its vertices lie on the circle.
-RigGeometry mixer_geometry(GeometryInput& input);
-
-// Direct shear box: split plane z = 0, shear along x, centre x = y = 0, normals towards the grains. The upper half
-// stands splitGap above the lower: were the side walls flush, a grain at the split would be counted by both meshes.
-// Parts: lower, upper (each with flanges of flangeLength at the split on both sides along x), plate (closed, normals
-// outward) at the top of the upper half.
-RigGeometry shearbox_geometry(GeometryInput& input);
-
-// Angle of repose by a lifted cylinder: base (square or disc, normal up) in z = 0, cylinder (open, normals inward)
-// standing on it.
-RigGeometry repose_geometry(GeometryInput& input);
-
-// Rotating drum: axis along x, 0 <= x <= drumLength, normals inward; parts drum (mantle) and ends (squares around
-// the circle). A tilt of the axis is left to the
-// direction of gravity: (-sin tilt, 0, -cos tilt) puts the bed on the end x = 0.
-RigGeometry drum_geometry(GeometryInput& input);
-
-// The rig named by the parameter `rig`.
-RigGeometry rig_geometry(GeometryInput& input);
 
 }  // namespace vielto

@@ -13,7 +13,7 @@
 #include <map>
 
 #include "core/bad_input.h"
-#include "geometry/rig_geometry.h"
+#include "rigs/rig_code.h"
 
 using namespace vielto;
 

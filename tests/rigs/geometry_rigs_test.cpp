@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "core/bad_input.h"
-#include "geometry/rig_geometry.h"
+#include "rigs/rig_code.h"
 
 using namespace vielto;
 

@@ -72,6 +72,7 @@ inline std::string SyntheticRecord::text() const {
   for (const double a : angles) degrees += (degrees.empty() ? "" : " ") + number(a);
   std::vector<std::pair<std::string, std::string>> header = {
       {"schema", "1"},
+      {"rig", "mixer"},
       {"speed", number(speed)},
       {"fill", number(fill)},
       {"slice", number(slice)},

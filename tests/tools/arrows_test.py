@@ -17,17 +17,25 @@ PAGE = "doc/develop/architecture.md"
 PATHS = (".", "postproc", "liggghts_addons", "liggghts_addons/law", "liggghts_addons/plugin/styles")
 
 
-def allowed_arrows(page):
+def allowed_arrows(page, root=ROOT):
+    """{room: rooms it may include}; ROOM/* stands for each folder of it."""
     block = re.search(r"^```arrows\n(.*?)^```$", page, re.M | re.S)
     if not block:
         raise ValueError(f"{PAGE}: there is no block ```arrows")
     arrows = {}
     for line in block[1].splitlines():
         room, arrow, others = line.partition("->")
-        if not arrow or room.strip() in arrows:
-            raise ValueError(f"{PAGE}: '{line}' is no arrow of its own; write `room -> rooms`, a line a room")
-        arrows[room.strip()] = set(others.split())
+        for name in expanded(room.strip(), root):
+            if not arrow or name in arrows:
+                raise ValueError(f"{PAGE}: '{line}' is no arrow of its own; write `room -> rooms`, a line a room")
+            arrows[name] = {other for word in others.split() for other in expanded(word, root)}
     return arrows
+
+
+def expanded(name, root):
+    if not name.endswith("/*"):
+        return [name]
+    return sorted(path.relative_to(root).as_posix() for path in (root / name[:-2]).iterdir() if path.is_dir())
 
 
 def circle(arrows):

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+#include "rigs/repose/repose_geometry.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-
-#include "geometry/rig_geometry.h"
 
 namespace vielto {
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+#include "rigs/shearbox/shearbox_geometry.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
-
-#include "geometry/rig_geometry.h"
 
 namespace vielto {
 namespace {
