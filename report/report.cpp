@@ -16,6 +16,7 @@
 
 #include "core/bad_input.h"
 #include "core/csv.h"
+#include "core/sha256.h"
 #include "report/equation_pages.h"
 #include "report/file_pages.h"
 #include "report/run_pages.h"
@@ -40,14 +41,6 @@ std::string quoted(const std::string& text) {
   std::string out = "'";
   for (const char c : text) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
   return out + "'";
-}
-
-// sha256sum is in every Debian system.
-std::string sha256(const std::string& path) {
-  FILE* pipe = popen(("sha256sum -- " + quoted(path) + " 2>/dev/null").c_str(), "r");
-  std::array<char, 65> sum{};
-  const std::size_t got = pipe ? fread(sum.data(), 1, 64, pipe) : 0;
-  return pipe && pclose(pipe) == 0 && got == 64 ? std::string(sum.data()) : "not computed";
 }
 
 std::vector<fs::path> sorted(const fs::path& folder) {
@@ -152,7 +145,7 @@ std::array<Section, 2> provenance(const std::vector<std::pair<std::string, fs::p
   }
   Table files{"Files this report was made from", {"file", "SHA-256"}, {}};
   for (const std::string& path : read)
-    files.rows.push_back({fs::path(path).lexically_relative(folder).string(), sha256(path)});
+    files.rows.push_back({fs::path(path).lexically_relative(folder).string(), sha256_of_file(path)});
   section.blocks.push_back(files);
   return {section, all_parameters};
 }

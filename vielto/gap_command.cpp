@@ -20,7 +20,7 @@
 #include "core/bad_input.h"
 #include "core/csv.h"
 #include "core/rig_table.h"
-#include "core/sha256.h"
+#include "core/seal.h"
 #include "gap/library/library_plan.h"
 #include "gap/library/sources.h"
 #include "gap/question/confirm.h"

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "core/bad_input.h"
+#include "core/seal.h"
 #include "core/sha256.h"
 
 namespace vielto::gap {

@@ -12,6 +12,7 @@
 
 #include "core/bad_input.h"
 #include "core/csv.h"
+#include "core/seal.h"
 #include "core/sha256.h"
 #include "gap/blind/power_signal.h"
 #include "gap/verdict/regions.h"

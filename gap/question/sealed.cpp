@@ -6,7 +6,7 @@
 #include <fstream>
 
 #include "core/bad_input.h"
-#include "core/sha256.h"
+#include "core/seal.h"
 
 namespace vielto::gap {
 

@@ -179,7 +179,7 @@ nlohmann::json RunSetup::hashes(const std::string& script, std::map<std::string,
   files.insert(files.end(), parameters_.files().begin(), parameters_.files().end());
   files.insert(files.end(), files_.begin(), files_.end());
   nlohmann::json of;
-  for (const std::string& file : files) of[fs::path(file).lexically_normal().string()] = gap::sha256_of_file(file);
+  for (const std::string& file : files) of[fs::path(file).lexically_normal().string()] = sha256_of_file(file);
   return of;
 }
 

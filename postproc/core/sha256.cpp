@@ -2,55 +2,57 @@
 #include "core/sha256.h"
 
 #include <fmt/format.h>
-#include <stdlib.h>
-#include <unistd.h>
+#include <openssl/evp.h>
 
 #include <array>
-#include <cstdio>
-#include <filesystem>
 #include <fstream>
 #include <memory>
 #include <stdexcept>
+#include <vector>
 
-#include "core/bad_input.h"
-#include "core/csv.h"
+namespace vielto {
+namespace {
 
-namespace vielto::gap {
+class Sha256 {
+ public:
+  Sha256() : state_(EVP_MD_CTX_new(), EVP_MD_CTX_free) {
+    if (!state_ || EVP_DigestInit_ex(state_.get(), EVP_sha256(), nullptr) != 1) fail();
+  }
+  void add(const char* data, std::size_t size) {
+    if (EVP_DigestUpdate(state_.get(), data, size) != 1) fail();
+  }
+  std::string hexadecimal() {
+    std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
+    unsigned int size = 0;
+    if (EVP_DigestFinal_ex(state_.get(), digest.data(), &size) != 1) fail();
+    std::string text;
+    for (unsigned int i = 0; i < size; ++i) text += fmt::format("{:02x}", digest[i]);
+    return text;
+  }
+
+ private:
+  [[noreturn]] static void fail() { throw std::runtime_error("libcrypto takes no SHA-256"); }
+
+  std::unique_ptr<EVP_MD_CTX, void (*)(EVP_MD_CTX*)> state_;
+};
+
+}  // namespace
 
 std::string sha256_of_file(const std::string& path) {
-  std::string quoted;
-  for (const char c : path) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  const std::unique_ptr<FILE, int (*)(FILE*)> pipe(popen(("sha256sum < '" + quoted + "' 2>/dev/null").c_str(), "r"),
-                                                   pclose);
-  std::array<char, 128> buffer = {};
-  const std::string line =
-      pipe && fgets(buffer.data(), static_cast<int>(buffer.size()), pipe.get()) ? buffer.data() : "";
-  const std::string hash = line.substr(0, line.find(' '));
-  if (hash.size() != 64) throw std::runtime_error(path + ": its SHA-256 cannot be taken; check the file and sha256sum");
-  return hash;
+  std::ifstream in(path, std::ios::binary);
+  Sha256 sum;
+  std::vector<char> buffer(1 << 16);
+  while (in.read(buffer.data(), static_cast<std::streamsize>(buffer.size())) || in.gcount() > 0)
+    sum.add(buffer.data(), static_cast<std::size_t>(in.gcount()));
+  // a folder opens as a file does, and fails to be read
+  if (!in.eof() || in.bad()) throw std::runtime_error(path + ": its SHA-256 cannot be taken; the file cannot be read");
+  return sum.hexadecimal();
 }
 
-std::string sha256_of_text(const std::string& text) {
-  std::string path = (std::filesystem::temp_directory_path() / "vielto_sha256_XXXXXX").string();
-  const int file = mkstemp(path.data());
-  const bool written = file >= 0 && write(file, text.data(), text.size()) == static_cast<ssize_t>(text.size());
-  if (file >= 0) close(file);
-  if (!written) throw std::runtime_error(path + ": cannot be written; check the space left");
-  const std::string hash = sha256_of_file(path);
-  std::filesystem::remove(path);
-  return hash;
+std::string sha256_of_text(std::string_view text) {
+  Sha256 sum;
+  sum.add(text.data(), text.size());
+  return sum.hexadecimal();
 }
 
-void seal(const std::string& path) {
-  write_whole_file(path + ".sha256",
-                   fmt::format("{}  {}\n", sha256_of_file(path), std::filesystem::path(path).filename().string()));
-}
-
-bool seal_holds(const std::string& path) {
-  std::ifstream in(path + ".sha256");
-  std::string hash;
-  if (!(in >> hash)) throw BadInput(path + ".sha256", 0, "cannot be read", "seal the file first");
-  return hash == sha256_of_file(path);
-}
-
-}  // namespace vielto::gap
+}  // namespace vielto

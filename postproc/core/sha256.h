@@ -1,20 +1,15 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// SHA-256 of a file, by the `sha256sum` of every Debian system. Seals and staleness checks rest on it.
+// SHA-256, by OpenSSL's libcrypto. Seals and staleness checks rest on it.
 #pragma once
 
 #include <string>
+#include <string_view>
 
-namespace vielto::gap {
+namespace vielto {
 
-// 64 hexadecimal digits. Errors: std::runtime_error if the file cannot be read or sha256sum is missing.
+// 64 hexadecimal digits. Errors: std::runtime_error if the file cannot be read.
 std::string sha256_of_file(const std::string& path);
 
-std::string sha256_of_text(const std::string& text);
+std::string sha256_of_text(std::string_view text);
 
-// Writes PATH.sha256 beside PATH in the format of `sha256sum -c`.
-void seal(const std::string& path);
-
-// False if PATH is not what PATH.sha256 says. Errors: BadInput if there is no seal.
-bool seal_holds(const std::string& path);
-
-}  // namespace vielto::gap
+}  // namespace vielto

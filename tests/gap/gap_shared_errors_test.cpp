@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/observation_table.h"
-#include "core/sha256.h"
+#include "core/seal.h"
 #include "gap_folder.h"
 
 namespace {
@@ -208,7 +208,7 @@ TEST_F(GapSharedErrors, ASealWithoutAThresholdIsNamed) {
   const json whole = json::parse(content(path));
   const auto expect = [&](const json& j, const char* part) {
     std::ofstream(path, std::ios::trunc) << j.dump(2) << "\n";
-    vielto::gap::seal(path);
+    vielto::seal(path);
     EXPECT_EQ(gap("diagnose" + how("--out answer --sealed sealed/isolability.json")), 2) << out_;
     expect_one_line(part);
     EXPECT_FALSE(fs::exists(folder_ / "answer"));
