@@ -6,38 +6,22 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <utility>
 
 #include "core/bad_input.h"
-#include "core/mixing_numbers.h"
 
 namespace vielto {
 namespace {
 
 constexpr std::ptrdiff_t kSummitRank = 10;
-constexpr double kEmpty = -std::numeric_limits<double>::infinity();
-
-struct Line {
-  double intercept = 0, slope = 0;  // z = intercept - slope r
-  double angle() const { return std::atan(slope) * 180 / kPi; }
-};
-
-Line fit(const std::vector<SurfacePoint>& points) {
-  double r = 0, z = 0, rr = 0, rz = 0;
-  const double n = static_cast<double>(points.size());
-  for (const SurfacePoint& p : points) r += p.r / n, z += p.z / n;
-  for (const SurfacePoint& p : points) rr += (p.r - r) * (p.r - r), rz += (p.r - r) * (p.z - z);
-  return {z - rz / rr * r, -rz / rr};
-}
 
 // Where the heap stands: the middle of its uppermost part, each place weighted by how far it reaches into that.
 std::array<double, 2> summit(const Heap& heap) {
   const double d = heap.header.grain_diameter;
   std::map<std::pair<long, long>, double> top;  // of the cells d x d
   for (const Grain& g : heap.grains) {
-    double& cell = top.emplace(std::pair(std::lround(g.x[0] / d), std::lround(g.x[1] / d)), kEmpty).first->second;
+    double& cell = top.emplace(std::pair(std::lround(g.x[0] / d), std::lround(g.x[1] / d)), kNoGrain).first->second;
     cell = std::max(cell, g.x[2] + g.radius);
   }
   std::vector<double> heights;
@@ -54,27 +38,6 @@ std::array<double, 2> summit(const Heap& heap) {
   return weight > 0 ? std::array{x / weight, y / weight} : std::array{0.0, 0.0};
 }
 
-// Top of the highest grain in each cell, [strip][cell]; kEmpty where there is none.
-std::vector<std::vector<double>> surface_cells(const Heap& heap, const std::array<double, 2>& axis) {
-  const double d = heap.header.grain_diameter;
-  double reach = 0;
-  for (const Grain& g : heap.grains) reach = std::max(reach, std::hypot(g.x[0] - axis[0], g.x[1] - axis[1]));
-  const std::size_t cells = static_cast<std::size_t>(reach / d) + 1;
-  std::vector<std::vector<double>> top(kConeStrips, std::vector<double>(cells, kEmpty));
-  for (std::size_t s = 0; s < kConeStrips; ++s) {
-    const double azimuth = 2 * kPi * static_cast<double>(s) / kConeStrips;
-    for (const Grain& g : heap.grains) {
-      const double x = g.x[0] - axis[0], y = g.x[1] - axis[1];
-      const double along = x * std::cos(azimuth) + y * std::sin(azimuth);
-      const double across = y * std::cos(azimuth) - x * std::sin(azimuth);
-      if (along < 0 || std::fabs(across) > d) continue;
-      double& cell = top[s][std::min(cells - 1, static_cast<std::size_t>(along / d))];
-      cell = std::max(cell, g.x[2] + g.radius);
-    }
-  }
-  return top;
-}
-
 }  // namespace
 
 ConeFit cone_fit(const Heap& heap) {
@@ -83,14 +46,15 @@ ConeFit cone_fit(const Heap& heap) {
   const std::array<double, 2> middle_of_heap = summit(heap);
   result.off_axis = std::hypot(middle_of_heap[0], middle_of_heap[1]);
   result.about_summit = result.off_axis > kOnAxis * d;
-  const auto top = surface_cells(heap, result.about_summit ? middle_of_heap : std::array{0.0, 0.0});
+  const auto top =
+      surface_strips(heap.grains, result.about_summit ? middle_of_heap : std::array{0.0, 0.0}, d, kConeStrips);
   const auto radius = [&](std::size_t cell) { return (static_cast<double>(cell) + 0.5) * d; };
   // A cell without a grain is bare base.
   for (std::size_t c = 0; c < top[0].size(); ++c) {
     double sum = 0;
     for (const auto& strip : top) {
       sum += std::max(strip[c], 0.0);
-      if (strip[c] > kEmpty) result.surface.push_back({radius(c), strip[c]});
+      if (strip[c] > kNoGrain) result.surface.push_back({radius(c), strip[c]});
     }
     result.profile.push_back({radius(c), sum / kConeStrips});
     result.height = std::max(result.height, sum / kConeStrips);
@@ -115,27 +79,25 @@ ConeFit cone_fit(const Heap& heap) {
   for (const auto& strip : top) {
     std::vector<SurfacePoint> flank;
     for (std::size_t c = from; c < to; ++c) {
-      if (strip[c] == kEmpty) continue;
+      if (strip[c] == kNoGrain) continue;
       flank.push_back({radius(c), strip[c]});
       (radius(c) < middle ? upper : lower).push_back(flank.back());
     }
     all.insert(all.end(), flank.begin(), flank.end());
     // a strip that is mostly bare has no flank to speak of
-    if (static_cast<int>(flank.size()) >= kLeastFlank - 1) result.strip_angles.push_back(fit(flank).angle());
+    if (static_cast<int>(flank.size()) >= kLeastFlank - 1) result.strip_angles.push_back(line_through(flank).angle());
   }
   if (result.strip_angles.size() < kConeStrips / 2)
     throw BadInput(heap.path, 0, "the heap covers less than half of the azimuths", "run with more grains");
-  const Line line = fit(all);
+  const RadialLine line = line_through(all);
   result.intercept = line.intercept;
   result.slope = line.slope;
-  result.curvature = fit(upper).angle() - fit(lower).angle();
+  result.curvature = line_through(upper).angle() - line_through(lower).angle();
 
-  const double n = static_cast<double>(result.strip_angles.size());
-  for (const double angle : result.strip_angles) result.angle += angle / n;
-  double squares = 0;
-  for (const double angle : result.strip_angles) squares += (angle - result.angle) * (angle - result.angle);
-  result.spread = std::sqrt(squares / (n - 1));
-  result.u = result.spread / std::sqrt(n);
+  const AzimuthMean mean = azimuth_mean(result.strip_angles);
+  result.angle = mean.mean;
+  result.spread = mean.spread;
+  result.u = mean.u;
   return result;
 }
 

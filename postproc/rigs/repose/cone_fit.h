@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Angle of repose of a heap: a cone fitted over all azimuths.
 //
-// 1. Surface. From the axis go kConeStrips strips, each 2 d wide, evenly over the azimuth; each is cut into cells d
-// long.
-//    The surface of a cell is the top z + R of its highest grain. All cells have the same area: with sectors, an outer
-//    cell would hold more grains, its highest would lie higher, and the slope would come out too small.
+// 1. Surface. In kConeStrips strips from the axis, by cells of a grain diameter (round_surface.h).
 // 2. Flank. The mean profile is the mean over the strips at each radius; the flank is where it lies between kFlankTop
 // and
 //    kFlankFoot of its greatest height: the rounded top and the thin foot are no cone. It is chosen by radius, never by
@@ -23,6 +20,7 @@
 #include <vector>
 
 #include "rigs/repose/heap.h"
+#include "rigs/round_surface.h"
 
 namespace vielto {
 
@@ -30,10 +28,6 @@ constexpr int kConeStrips = 24;
 constexpr double kFlankTop = 0.8, kFlankFoot = 0.2;  // of the greatest height
 constexpr int kLeastFlank = 4;                       // cells
 constexpr double kOnAxis = 2;                        // diameters
-
-struct SurfacePoint {
-  double r = 0, z = 0;  // m
-};
 
 struct ConeFit {
   double angle = 0, u = 0;              // deg
