@@ -17,7 +17,7 @@ class Rig:
         self.record = stated.get("record")
         self.post = stated.get("post", "")
         self.result = stated.get("result")
-        self.reference = stated.get("reference", [])
+        self.reference = stated.get("reference")
         self._work = stated.get("work", "0")
         self._defaults = None
 

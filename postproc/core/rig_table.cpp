@@ -65,7 +65,7 @@ RigDescription read_rig(const TomlTable& t, const std::string& name, const std::
   rig.post = or_empty("post");
   rig.result = or_empty("result");
   rig.work = or_empty("work");
-  rig.reference = t.texts("reference");
+  if (t.has("reference")) rig.reference = t.table("reference").texts("numbers");
   if (t.has("conditions")) rig.vars = read_conditions(t.table("conditions"));
   return rig;
 }
