@@ -18,59 +18,54 @@ namespace {
 
 int triangles(TriMesh* mesh) { return mesh->sizeLocal() + mesh->sizeGhost(); }
 
-double square(double dx, double dy, double dz) { return dx * dx + dy * dy + dz * dz; }
-
 }  // namespace
 
 bool NearWalls::begin(const Atom* grains, FixMeshSurface* const* meshes, int count, double reach, bool renewed) {
   age_++;
-  if (!renewed && held_.size() == static_cast<std::size_t>(grains->nlocal)) {
-    const double nearer = approach(grains, meshes, count);
+  places_.resize(grains->nlocal);
+  // LIGGGHTS keeps the three values of a grain after those of the one before
+  if (!places_.empty()) search_.places(grains->x[0], grains->radius, places_.size(), places_.data());
+  if (!renewed && held_.size() == places_.size()) {
+    const double nearer = approach(meshes, count);
     // 1e-9: the margin was compared with rounded distances
     if (nearer < margin_ * (1 - 1e-9)) return false;
     margin_ = 16 * nearer / age_;
   }
   age_ = 0;
-  held_.resize(grains->nlocal);
-  for (int i = 0; i < grains->nlocal; i++) {
-    const double* const x = grains->x[i];
-    held_[i] = {x[0], x[1], x[2], grains->radius[i]};
-  }
+  held_ = places_;
   corners_.resize(count);
   entries_.resize(count);
   for (int m = 0; m < count; m++) {
-    TriMesh* const mesh = meshes[m]->triMesh();
-    corners_[m].resize(9 * triangles(mesh));
-    for (int t = 0; t < triangles(mesh); t++)
-      for (int k = 0; k < 3; k++) mesh->node(t, k, &corners_[m][9 * t + 3 * k]);
+    corners(meshes[m], corners_[m]);
     look(grains, meshes[m], reach, entries_[m]);
   }
   return true;
 }
 
 // How much nearer any grain may be to any triangle than at the last look, at most.
-double NearWalls::approach(const Atom* grains, FixMeshSurface* const* meshes, int count) const {
-  double farthest = 0, growth = 0, turned = 0;
-  for (int i = 0; i < grains->nlocal; i++) {
-    const double* const x = grains->x[i];
-    const Place& h = held_[i];
-    farthest = std::max(farthest, square(x[0] - h.x, x[1] - h.y, x[2] - h.z));
-    growth = std::max(growth, grains->radius[i] - h.radius);
-  }
+double NearWalls::approach(FixMeshSurface* const* meshes, int count) {
+  const Drift grains = search_.drift(places_.data(), held_.data(), places_.size());
+  double turned = 0;
   for (int m = 0; m < count; m++) {
     TriMesh* const mesh = meshes[m]->triMesh();
     if (!mesh->isMoving() && !mesh->isDeforming()) continue;
-    if (corners_[m].size() != static_cast<std::size_t>(9 * triangles(mesh))) return INFINITY;
     // a point of a triangle goes no farther than the corner that goes farthest
-    for (int t = 0; t < triangles(mesh); t++)
-      for (int k = 0; k < 3; k++) {
-        double now[3];
-        mesh->node(t, k, now);
-        const double* const then = &corners_[m][9 * t + 3 * k];
-        turned = std::max(turned, square(now[0] - then[0], now[1] - then[1], now[2] - then[2]));
-      }
+    corners(meshes[m], nodes_);
+    if (nodes_.size() != corners_[m].size()) return INFINITY;
+    turned = std::max(turned, search_.drift(nodes_.data(), corners_[m].data(), nodes_.size()).square);
   }
-  return sqrt(farthest) + sqrt(turned) + growth;
+  return sqrt(grains.square) + sqrt(turned) + grains.growth;
+}
+
+void NearWalls::corners(FixMeshSurface* fix, std::vector<Place>& places) const {
+  TriMesh* const mesh = fix->triMesh();
+  places.resize(3 * triangles(mesh));
+  for (int t = 0; t < triangles(mesh); t++)
+    for (int k = 0; k < 3; k++) {
+      double node[3];
+      mesh->node(t, k, node);
+      places[3 * t + k] = {node[0], node[1], node[2], 0};
+    }
 }
 
 void NearWalls::look(const Atom* grains, FixMeshSurface* fix, double reach, std::vector<Entry>& entries) {

@@ -7,6 +7,8 @@
 
 #include <vector>
 
+#include "engine/near_search.h"
+
 namespace LAMMPS_NS {
 class Atom;
 class FixMeshSurface;
@@ -21,6 +23,8 @@ class NearWalls {
     int triangle, grain;
   };
 
+  explicit NearWalls(const NearSearch& search) : search_(search) {}
+
   /* Call once a step; `renewed`: the lists of the meshes are others than in the step before; `reach`: a contact is
      handled up to this part of a grain's radius from the wall. Tells whether the entries are others. */
   bool begin(const LAMMPS_NS::Atom* grains, LAMMPS_NS::FixMeshSurface* const* meshes, int count, double reach,
@@ -29,15 +33,14 @@ class NearWalls {
   const std::vector<Entry>& of(int mesh) const { return entries_[mesh]; }
 
  private:
-  struct Place {
-    double x, y, z, radius;
-  };
-
-  double approach(const LAMMPS_NS::Atom* grains, LAMMPS_NS::FixMeshSurface* const* meshes, int count) const;
+  double approach(LAMMPS_NS::FixMeshSurface* const* meshes, int count);
+  void corners(LAMMPS_NS::FixMeshSurface* mesh, std::vector<Place>& places) const;
   void look(const LAMMPS_NS::Atom* grains, LAMMPS_NS::FixMeshSurface* mesh, double reach, std::vector<Entry>& entries);
 
-  std::vector<Place> held_;                   // grains at the last look at all
-  std::vector<std::vector<double>> corners_;  // of each mesh, then
+  const NearSearch& search_;
+  std::vector<Place> places_, held_;         // grains now, and at the last look at all
+  std::vector<Place> nodes_;                 // corners of a mesh now
+  std::vector<std::vector<Place>> corners_;  // of each mesh, then
   std::vector<std::vector<Entry>> entries_;
   double margin_ = 0;
   int age_ = 0;  // steps since the last look at all

@@ -26,7 +26,7 @@ std::vector<const PackedLaw*> offered() {
   if (__builtin_cpu_supports("x86-64-v4")) laws.push_back(&packed_avx512);
   if (__builtin_cpu_supports("x86-64-v3")) laws.push_back(&packed_avx2);
 #else
-  if (packed_native.lanes > 1) laws.push_back(&packed_native);
+  if (packed_native.search.lanes > 1) laws.push_back(&packed_native);
 #endif
   return laws;
 }
@@ -40,13 +40,18 @@ const PackedLaw* packed_law(LAMMPS_NS::LAMMPS* lmp) {
   if (asked == std::string("1")) return nullptr;
   std::string there = "1";
   for (const PackedLaw* law : laws) {
-    if (asked == std::to_string(law->lanes)) return law;
-    there += ", " + std::to_string(law->lanes);
+    if (asked == std::to_string(law->search.lanes)) return law;
+    there += ", " + std::to_string(law->search.lanes);
   }
   stop_all(lmp, (std::string("vielto: VIELTO_LANES=") + asked + ", but this processor can take " + there +
                  " contacts at once; unset it for the most")
                     .c_str());
   return nullptr;
+}
+
+const NearSearch& near_search(LAMMPS_NS::LAMMPS* lmp) {
+  const PackedLaw* const law = packed_law(lmp);
+  return law ? law->search : plain_search;
 }
 
 }  // namespace vielto

@@ -9,6 +9,7 @@
 #ifndef VIELTO_PACKED_LAW_H
 #define VIELTO_PACKED_LAW_H
 
+#include "engine/near_search.h"
 #include "vielto_law.h"
 #include "vielto_state.h"
 
@@ -52,15 +53,32 @@ struct PackedStep {
   bool frozen;             // held1 and held2 count
 };
 
-// Both return whether some overlap may exceed greatestOverlap.
+// The grains of pairs as LIGGGHTS holds them: vectors are three values a grain, one grain after the other.
+struct PackedGrains {
+  const Place* places;
+  const double *v, *omega;
+  const double *mass, *body;  // body: mass of the clump that a grain belongs to, if > 0; NULL: there are none
+  const int *type, *mask;
+  int types;   // a pair stands at types * type_i + type_j
+  int frozen;  // bit of the group of fix freeze
+  int owned;   // grains that get forces
+  int flags;   // what a contact sets
+  double *f, *torque;
+};
+
+/* `touching`: numbers of the pairs of the block. A law returns whether some overlap may exceed greatestOverlap. `add`
+   adds in the order of the contacts, so that sums are rounded as if they came one by one. */
 struct PackedLaw {
-  int lanes;
-  bool (*pairs)(const PackedStep&, Block&, int count);
+  bool (*pairs)(const PackedStep&, const PackedGrains&, const NearPair*, const size_t* touching, int count, Block&);
+  void (*add)(const PackedStep&, const PackedGrains&, const NearPair*, const size_t* touching, int count, const Block&);
   bool (*walls)(const PackedStep&, Block&, int count);
+  NearSearch search;
 };
 
 // NULL: contact by contact. Stops the run where VIELTO_LANES asks for what there is not.
 const PackedLaw* packed_law(LAMMPS_NS::LAMMPS* lmp);
+// That of the registers of packed_law.
+const NearSearch& near_search(LAMMPS_NS::LAMMPS* lmp);
 
 }  // namespace vielto
 

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The body of packed_law.h; compiled once for each instruction set, which VIELTO_PACKED_SET names.
+#include <algorithm>
+
+#include "engine/near_search_target.h"
 #include "engine/packed_law.h"
 #include "engine/packed_number.h"
 
@@ -133,9 +136,12 @@ VIELTO_INLINE bool evaluate(const PackedStep& step, const PairOf<Pack>& p, Block
   return any(overlap > step.greatestOverlap * (2 * (Wall ? R1 : choose(R1 < R2, R1, R2))));
 }
 
+// A count of contacts, filled up to whole registers.
+VIELTO_INLINE int whole_of(int count) { return (count + Pack::lanes - 1) / Pack::lanes * Pack::lanes; }
+
 template <bool Wall>
 bool evaluate(const PackedStep& step, Block& b, int count) {
-  const int whole = (count + Pack::lanes - 1) / Pack::lanes * Pack::lanes;
+  const int whole = whole_of(count);
   // what the lanes past the last hold is of no account, but they need a pair
   for (int k = count; k < whole; k++) b.pair[k] = b.pair[count - 1];
   bool greater = false;
@@ -147,9 +153,112 @@ bool evaluate(const PackedStep& step, Block& b, int count) {
   return greater;
 }
 
+VIELTO_INLINE void store(const Pack (&columns)[3], Block::Row (&rows)[3], int k) {
+  for (int d = 0; d < 3; d++) store(columns[d], rows[d] + k);
+}
+
+// Lanes past the last contact hold the next, or the last again.
+void fill(const PackedStep& step, const PackedGrains& g, const NearPair* pairs, const size_t* touching, int count,
+          Block& b) {
+  const LawSettings& s = step.settings;
+  for (int k = 0; k < whole_of(count); k += Pack::lanes) {
+    const NearPair* pair[Pack::lanes];
+    for (int lane = 0; lane < Pack::lanes; lane++) pair[lane] = &pairs[touching[k + lane]];
+    const auto at_i = [&](const double* numbers) {
+      return [&pair, numbers](int lane) { return numbers + 3 * static_cast<std::ptrdiff_t>(pair[lane]->i); };
+    };
+    const auto at_j = [&](const double* numbers) {
+      return [&pair, numbers](int lane) { return numbers + 3 * static_cast<std::ptrdiff_t>(pair[lane]->j); };
+    };
+    Pack one[4], two[4], v1[3], v2[3], w[3];
+    columns<4>([&](int lane) { return &g.places[pair[lane]->i].x; }, one);
+    columns<4>([&](int lane) { return &g.places[pair[lane]->j].x; }, two);
+    const VecOf<Pack> delta = {one[0] - two[0], one[1] - two[1], one[2] - two[2]};
+    store(delta, b.delta, k);
+    store(delta.x * delta.x + delta.y * delta.y + delta.z * delta.z, b.square + k);
+    store(one[3], b.R1 + k);
+    store(two[3], b.R2 + k);
+    columns<3>(at_i(g.v), v1);
+    columns<3>(at_j(g.v), v2);
+    store(VecOf<Pack>{v1[0] - v2[0], v1[1] - v2[1], v1[2] - v2[2]}, b.v, k);
+    columns<3>(at_i(g.omega), w);
+    store(w, b.spin1, k);
+    columns<3>(at_j(g.omega), w);
+    store(w, b.spin2, k);
+    columns<3>([&](int lane) { return pair[lane]->history + s.slidingAt; }, w);
+    store(w, b.sliding, k);
+    if (s.rolling) {
+      Pack moments[4];
+      columns<4>([&](int lane) { return pair[lane]->history + s.rollingAt; }, moments);
+      for (int d = 0; d < 3; d++) store(moments[d], b.rolling[d] + k);
+      store(moments[3], b.twisting + k);
+    }
+    for (int lane = 0; lane < Pack::lanes; lane++) {
+      const int i = pair[lane]->i, j = pair[lane]->j;
+      b.m1[k + lane] = g.body && g.body[i] > 0.0 ? g.body[i] : g.mass[i];
+      b.m2[k + lane] = g.body && g.body[j] > 0.0 ? g.body[j] : g.mass[j];
+      b.pair[k + lane] = g.types * g.type[i] + g.type[j];
+      if (!step.frozen) continue;
+      b.held1[k + lane] = (g.mask[i] & g.frozen) != 0;
+      b.held2[k + lane] = (g.mask[j] & g.frozen) != 0;
+    }
+  }
+  b.alike = std::all_of(b.pair, b.pair + count, [&](int pair) { return pair == b.pair[0]; });
+}
+
+bool press(const PackedStep& step, const PackedGrains& grains, const NearPair* pairs, const size_t* touching, int count,
+           Block& b) {
+  fill(step, grains, pairs, touching, count, b);
+  return evaluate<false>(step, b, count);
+}
+
+typedef hn::FixedTag<double, 2> Two;
+
+VIELTO_INLINE void copy_three(const double* from, double* to) {
+  hn::StoreU(hn::LoadU(Two(), from), Two(), to);
+  to[2] = from[2];
+}
+VIELTO_INLINE void add_three(const double* what, double* to) {
+  hn::StoreU(hn::Add(hn::LoadU(Two(), to), hn::LoadU(Two(), what)), Two(), to);
+  to[2] += what[2];
+}
+VIELTO_INLINE void subtract_three(const double* what, double* to) {
+  hn::StoreU(hn::Sub(hn::LoadU(Two(), to), hn::LoadU(Two(), what)), Two(), to);
+  to[2] -= what[2];
+}
+
+void add(const PackedStep& step, const PackedGrains& g, const NearPair* pairs, const size_t* touching, int count,
+         const Block& b) {
+  const LawSettings& s = step.settings;
+  Rows force, torque1, torque2, sliding, moments;
+  for (int k = 0; k < count; k += Pack::lanes) {
+    const auto rows_of = [k](const Block::Row(&rows)[3], const Pack& last, Rows& out) {
+      store_rows(load(rows[0] + k), load(rows[1] + k), load(rows[2] + k), last, out);
+    };
+    rows_of(b.force, 0.0, force);
+    rows_of(b.torque1, 0.0, torque1);
+    rows_of(b.torque2, 0.0, torque2);
+    rows_of(b.sliding, 0.0, sliding);
+    if (s.rolling) rows_of(b.rolling, load(b.twisting + k), moments);
+    const int lanes = std::min(Pack::lanes, count - k);
+    for (int lane = 0; lane < lanes; lane++) {
+      const NearPair& pair = pairs[touching[k + lane]];
+      *pair.flags |= g.flags;
+      copy_three(sliding.row(lane), pair.history + s.slidingAt);
+      if (s.rolling) hn::StoreU(load_row<4>(moments.row(lane)), RowTag(), pair.history + s.rollingAt);
+      add_three(force.row(lane), g.f + 3 * static_cast<std::ptrdiff_t>(pair.i));
+      add_three(torque1.row(lane), g.torque + 3 * static_cast<std::ptrdiff_t>(pair.i));
+      if (pair.j >= g.owned) continue;
+      subtract_three(force.row(lane), g.f + 3 * static_cast<std::ptrdiff_t>(pair.j));
+      add_three(torque2.row(lane), g.torque + 3 * static_cast<std::ptrdiff_t>(pair.j));
+    }
+  }
+}
+
 }  // namespace
 
 extern const PackedLaw VIELTO_PACKED_SET;
-const PackedLaw VIELTO_PACKED_SET = {Pack::lanes, &evaluate<false>, &evaluate<true>};
+const PackedLaw VIELTO_PACKED_SET = {
+    &press, &add, &evaluate<true>, {Pack::lanes, &near_places, &near_drift, &near_touching}};
 
 }  // namespace vielto

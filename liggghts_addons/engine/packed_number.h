@@ -52,6 +52,67 @@ VIELTO_INLINE bool any(const PackMask& c) { return !hn::AllFalse(Tag(), c.m); }
 VIELTO_INLINE bool all(const PackMask& c) { return hn::AllTrue(Tag(), c.m); }
 VIELTO_INLINE Pack choose(const PackMask& c, const Pack& a, const Pack& b) { return hn::IfThenElse(c.m, a.v, b.v); }
 
+/* Rows of N numbers, 3 or 4, in memory, one for each lane, and the same numbers by component, all lanes side by side:
+   a transposition within each half of 4 lanes; on narrower registers number by number. */
+constexpr bool transposes = Pack::lanes == 4 || Pack::lanes == 8;
+typedef hn::CappedTag<double, 4> RowTag;
+
+template <int N>
+VIELTO_INLINE hn::Vec<RowTag> load_row(const double* at) {
+  if constexpr (N == 4) return hn::LoadU(RowTag(), at);
+  return hn::MaskedLoad(hn::FirstN(RowTag(), N), RowTag(), at);
+}
+
+// `at(lane)` tells where the row of a lane stands.
+template <int N, class At>
+VIELTO_INLINE void columns(At at, Pack (&out)[N]) {
+  static_assert(N == 3 || N == 4, "a vector, or a vector and a number");
+  if constexpr (transposes) {
+    const Tag d;
+    hn::Vec<Tag> row[4];
+    for (int k = 0; k < 4; k++)
+      if constexpr (Pack::lanes == 8)
+        row[k] = hn::Combine(d, load_row<N>(at(k + 4)), load_row<N>(at(k)));
+      else
+        row[k] = load_row<N>(at(k));
+    const auto even01 = hn::InterleaveLower(d, row[0], row[1]), odd01 = hn::InterleaveUpper(d, row[0], row[1]);
+    const auto even23 = hn::InterleaveLower(d, row[2], row[3]), odd23 = hn::InterleaveUpper(d, row[2], row[3]);
+    out[0] = hn::OddEvenBlocks(hn::SwapAdjacentBlocks(even23), even01);
+    out[1] = hn::OddEvenBlocks(hn::SwapAdjacentBlocks(odd23), odd01);
+    out[2] = hn::OddEvenBlocks(even23, hn::SwapAdjacentBlocks(even01));
+    if constexpr (N == 4) out[3] = hn::OddEvenBlocks(odd23, hn::SwapAdjacentBlocks(odd01));
+  } else {
+    alignas(64) double column[N][Pack::lanes];
+    for (int lane = 0; lane < Pack::lanes; lane++)
+      for (int c = 0; c < N; c++) column[c][lane] = at(lane)[c];
+    for (int c = 0; c < N; c++) out[c] = load(column[c]);
+  }
+}
+
+// Rows of 4 in memory; row(lane) tells where.
+struct alignas(64) Rows {
+  double numbers[4 * Pack::lanes];
+  static constexpr int place(int lane) { return transposes ? (lane % 4) * Pack::lanes + lane / 4 * 4 : 4 * lane; }
+  const double* row(int lane) const { return numbers + place(lane); }
+};
+
+VIELTO_INLINE void store_rows(const Pack& x, const Pack& y, const Pack& z, const Pack& w, Rows& rows) {
+  if constexpr (transposes) {
+    const Tag d;
+    const auto even01 = hn::InterleaveLower(d, x.v, y.v), odd01 = hn::InterleaveUpper(d, x.v, y.v);
+    const auto even23 = hn::InterleaveLower(d, z.v, w.v), odd23 = hn::InterleaveUpper(d, z.v, w.v);
+    store(hn::OddEvenBlocks(hn::SwapAdjacentBlocks(even23), even01), rows.numbers);
+    store(hn::OddEvenBlocks(hn::SwapAdjacentBlocks(odd23), odd01), rows.numbers + Pack::lanes);
+    store(hn::OddEvenBlocks(even23, hn::SwapAdjacentBlocks(even01)), rows.numbers + 2 * Pack::lanes);
+    store(hn::OddEvenBlocks(odd23, hn::SwapAdjacentBlocks(odd01)), rows.numbers + 3 * Pack::lanes);
+  } else {
+    alignas(64) double column[4][Pack::lanes];
+    store(x, column[0]), store(y, column[1]), store(z, column[2]), store(w, column[3]);
+    for (int lane = 0; lane < Pack::lanes; lane++)
+      for (int c = 0; c < 4; c++) rows.numbers[4 * lane + c] = column[c][lane];
+  }
+}
+
 }  // namespace
 }  // namespace vielto
 

@@ -15,7 +15,6 @@
 #include <math.h>
 
 #include <algorithm>
-#include <vector>
 
 // clang-format off
 #include "fix_insert_stream.h"
@@ -47,7 +46,8 @@ class FastPair : public LIGGGHTS::PairStyles::Granular<LIGGGHTS::ContactModels::
       : General(program, parent, hash),
         program_(program),
         model_(this->*Handed<ModelOfPair<Style>>::pointer),
-        packed_(Packed::packs ? packed_law(program) : NULL) {}
+        packed_(Packed::packs ? packed_law(program) : NULL),
+        nearPairs_(near_search(program)) {}
 
   void compute_force(LAMMPS_NS::PairGran* pg, int eflag, int vflag, int addflag) override {
     timeStep_.look(program_);
@@ -71,13 +71,6 @@ class FastPair : public LIGGGHTS::PairStyles::Granular<LIGGGHTS::ContactModels::
   }
 
  private:
-  struct Touch {
-    int i, j;
-    double dx, dy, dz, square;
-    int* flags;
-    double* history;
-  };
-
   // Step: forces are wanted and the history goes on, as in every step of a run.
   template <bool Step>
   VIELTO_FLATTEN void loop(LAMMPS_NS::PairGran* pg) {
@@ -87,7 +80,6 @@ class FastPair : public LIGGGHTS::PairStyles::Granular<LIGGGHTS::ContactModels::
     double* const* const omega = grains->omega;
     double* const* const f = grains->f;
     double* const* const torque = grains->torque;
-    const double* const radius = grains->radius;
     const double* const rmass = grains->rmass;
     const double* const body = pg->fr_pair() ? pg->mr_pair() : NULL;  // mass of the clump a grain belongs to
     const int* const type = grains->type;
@@ -102,11 +94,13 @@ class FastPair : public LIGGGHTS::PairStyles::Granular<LIGGGHTS::ContactModels::
     c.computeflag = Step ? 1 : pg->computeflag();
     c.shearupdate = Step ? 1 : pg->shearupdate();
 
-    const std::size_t found = find_touches(pg);
-    for (std::size_t k = 0; k < found; k++) {
-      const Touch& t = touches_[k];
+    const Touching& touching = find_touches(pg);
+    const NearPair* const pairs = nearPairs_.pairs();
+    const Place* const places = nearPairs_.places();
+    for (std::size_t k = 0; k < touching.count; k++) {
+      const NearPair& t = pairs[touching.pairs[k]];
       // LIGGGHTS keeps the three values of a grain after those of the one before
-      const Touch& ahead = touches_[std::min(k + 8, found - 1)];
+      const NearPair& ahead = pairs[touching.pairs[std::min(k + 8, touching.count - 1)]];
       for (const double* values : {v[0], omega[0], f[0], torque[0]})
         __builtin_prefetch(values + 3 * static_cast<std::size_t>(ahead.j));
       __builtin_prefetch(ahead.history, 1);
@@ -116,17 +110,18 @@ class FastPair : public LIGGGHTS::PairStyles::Granular<LIGGGHTS::ContactModels::
       c.j = j;
       c.itype = type[i];
       c.jtype = type[j];
-      c.delta[0] = t.dx;
-      c.delta[1] = t.dy;
-      c.delta[2] = t.dz;
-      c.rsq = t.square;
-      c.r = sqrt(t.square);
+      const Place &one = places[i], &two = places[j];
+      c.delta[0] = one.x - two.x;
+      c.delta[1] = one.y - two.y;
+      c.delta[2] = one.z - two.z;
+      c.rsq = c.delta[0] * c.delta[0] + c.delta[1] * c.delta[1] + c.delta[2] * c.delta[2];
+      c.r = sqrt(c.rsq);
       c.rinv = 1.0 / c.r;
-      c.en[0] = t.dx * c.rinv;
-      c.en[1] = t.dy * c.rinv;
-      c.en[2] = t.dz * c.rinv;
-      c.radi = radius[i];
-      c.radj = radius[j];
+      c.en[0] = c.delta[0] * c.rinv;
+      c.en[1] = c.delta[1] * c.rinv;
+      c.en[2] = c.delta[2] * c.rinv;
+      c.radi = one.radius;
+      c.radj = two.radius;
       c.radsum = c.radi + c.radj;
       c.v_i = v[i];
       c.v_j = v[j];
@@ -149,102 +144,49 @@ class FastPair : public LIGGGHTS::PairStyles::Granular<LIGGGHTS::ContactModels::
     }
   }
 
-  // A step of a run, several contacts at once.
+  // A step of a run, several contacts at once. Without PairGran::relax, which LIGGGHTS 3.8 has no fix to set.
   void packed_loop(LAMMPS_NS::PairGran* pg) {
-    const std::size_t found = find_touches(pg);
+    const Touching& touching = find_touches(pg);
+    const NearPair* const pairs = nearPairs_.pairs();
     PackedStep step = Packed::step(model_);
     step.dt = program_->update->dt;
     step.frozen = pg->freeze_group_bit() != 0;
-    for (std::size_t first = 0; first < found; first += Block::size) {
-      const int count = static_cast<int>(std::min(found - first, static_cast<std::size_t>(Block::size)));
-      fill(pg, step, &touches_[first], count, found - first);
+    const PackedGrains grains = packed_grains(pg);
+    for (std::size_t first = 0; first < touching.count; first += Block::size) {
+      const int count = static_cast<int>(std::min(touching.count - first, static_cast<std::size_t>(Block::size)));
+      const std::size_t* const which = touching.pairs + first;
       step.greatestOverlap = tally().overlapMax;
-      const bool greater = packed_->pairs(step, block_, count);
-      if (greater || tally().overlaps) watch(&touches_[first], count);
-      add_block(pg, step.settings, &touches_[first], count);
+      const bool greater = packed_->pairs(step, grains, pairs, which, count, block_);
+      if (greater || tally().overlaps) watch(pairs, which, count);
+      packed_->add(step, grains, pairs, which, count, block_);
     }
   }
 
-  void fill(LAMMPS_NS::PairGran* pg, const PackedStep& step, const Touch* touches, int count, std::size_t left) {
-    LAMMPS_NS::Atom* const grains = program_->atom;
-    const PairTable& table = Packed::pairs(model_);
-    const double* const radius = grains->radius;
-    const double* const rmass = grains->rmass;
-    const double* const body = pg->fr_pair() ? pg->mr_pair() : NULL;
-    const LawSettings& s = step.settings;
-    Block& b = block_;
-    b.alike = true;
-    for (int k = 0; k < count; k++) {
-      const Touch& t = touches[k];
-      const Touch& ahead = touches[std::min(static_cast<std::size_t>(k + 8), left - 1)];
-      // LIGGGHTS keeps the three values of a grain after those of the one before
-      for (const double* values : {grains->v[0], grains->omega[0], grains->f[0], grains->torque[0]})
-        __builtin_prefetch(values + 3 * static_cast<std::size_t>(ahead.j));
-      __builtin_prefetch(ahead.history, 1);
-      __builtin_prefetch(ahead.history + 7, 1);
-      const int i = t.i, j = t.j;
-      b.delta[0][k] = t.dx, b.delta[1][k] = t.dy, b.delta[2][k] = t.dz;
-      b.square[k] = t.square;
-      b.R1[k] = radius[i];
-      b.R2[k] = radius[j];
-      b.m1[k] = body && body[i] > 0.0 ? body[i] : rmass[i];
-      b.m2[k] = body && body[j] > 0.0 ? body[j] : rmass[j];
-      b.pair[k] = table.place(grains->type[i], grains->type[j]);
-      b.alike &= b.pair[k] == b.pair[0];
-      const double *vi = grains->v[i], *vj = grains->v[j], *wi = grains->omega[i], *wj = grains->omega[j];
-      for (int d = 0; d < 3; d++) {
-        b.v[d][k] = vi[d] - vj[d];
-        b.spin1[d][k] = wi[d];
-        b.spin2[d][k] = wj[d];
-        b.sliding[d][k] = t.history[s.slidingAt + d];
-      }
-      if (s.rolling) {
-        for (int d = 0; d < 3; d++) b.rolling[d][k] = t.history[s.rollingAt + d];
-        b.twisting[k] = t.history[s.rollingAt + 3];
-      }
-    }
-    if (!step.frozen) return;
-    for (int k = 0; k < count; k++) {
-      b.held1[k] = (grains->mask[touches[k].i] & pg->freeze_group_bit()) != 0;
-      b.held2[k] = (grains->mask[touches[k].j] & pg->freeze_group_bit()) != 0;
-    }
-  }
-
-  // Forces, in the order of the contacts, so that sums are rounded as in the other loop; and the histories.
-  void add_block(LAMMPS_NS::PairGran* pg, const LawSettings& s, const Touch* touches, int count) {
-    LAMMPS_NS::Atom* const grains = program_->atom;
-    const int owned = program_->force->newton_pair ? grains->nlocal + grains->nghost : grains->nlocal;
-    const Block& b = block_;
-    for (int k = 0; k < count; k++) {
-      const Touch& t = touches[k];
-      *t.flags |= Packed::flags;
-      for (int d = 0; d < 3; d++) t.history[s.slidingAt + d] = b.sliding[d][k];
-      if (s.rolling) {
-        for (int d = 0; d < 3; d++) t.history[s.rollingAt + d] = b.rolling[d][k];
-        t.history[s.rollingAt + 3] = b.twisting[k];
-      }
-      const double one = pg->relax(t.i);
-      double *f = grains->f[t.i], *torque = grains->torque[t.i];
-      for (int d = 0; d < 3; d++) {
-        f[d] += one * b.force[d][k];
-        torque[d] += one * b.torque1[d][k];
-      }
-      if (t.j >= owned) continue;
-      const double two = pg->relax(t.j);
-      f = grains->f[t.j], torque = grains->torque[t.j];
-      for (int d = 0; d < 3; d++) {
-        f[d] -= two * b.force[d][k];
-        torque[d] += two * b.torque2[d][k];
-      }
-    }
+  PackedGrains packed_grains(LAMMPS_NS::PairGran* pg) const {
+    const LAMMPS_NS::Atom* const a = program_->atom;
+    PackedGrains g;
+    g.places = nearPairs_.places();
+    g.v = a->v[0];
+    g.omega = a->omega[0];
+    g.mass = a->rmass;
+    g.body = pg->fr_pair() ? pg->mr_pair() : NULL;
+    g.type = a->type;
+    g.mask = a->mask;
+    g.types = Packed::pairs(model_).place(1, 0);
+    g.frozen = pg->freeze_group_bit();
+    g.owned = program_->force->newton_pair ? a->nlocal + a->nghost : a->nlocal;
+    g.flags = Packed::flags;
+    g.f = a->f[0];
+    g.torque = a->torque[0];
+    return g;
   }
 
   // Overlap limit and statistics.
-  __attribute__((noinline)) void watch(const Touch* touches, int count) {
+  __attribute__((noinline)) void watch(const NearPair* pairs, const std::size_t* which, int count) {
     LIGGGHTS::ContactModels::SurfacesIntersectData c = LIGGGHTS::ContactModels::SurfacesIntersectData();
     for (int k = 0; k < count; k++) {
-      c.i = touches[k].i;
-      c.j = touches[k].j;
+      c.i = pairs[which[k]].i;
+      c.j = pairs[which[k]].j;
       c.radi = block_.R1[k];
       c.radj = block_.R2[k];
       c.deltan = block_.overlap[k];
@@ -256,36 +198,21 @@ class FastPair : public LIGGGHTS::PairStyles::Granular<LIGGGHTS::ContactModels::
 
   /* Pairs in contact, in the order of the neighbour list. Apart from the law, so that its long chain of operations is
      not broken off at every neighbour that the processor has wrongly guessed to touch. */
-  std::size_t find_touches(LAMMPS_NS::PairGran* pg) {
+  const Touching& find_touches(LAMMPS_NS::PairGran* pg) {
     LAMMPS_NS::NeighList* const list = pg->list;
     LAMMPS_NS::NeighList* const histories = pg->listgranhistory;
-    const int dnum = pg->dnum();
-    if (nearPairs_.begin(program_, list))
+    if (nearPairs_.begin(program_))
       for (int row = 0; row < list->inum; row++) {
         const int i = list->ilist[row];
-        int* const flags = histories->firstneigh[i];
-        nearPairs_.look(row, i, list->firstneigh[i], list->numneigh[i], flags,
-                        [&](int slot) { part(flags + slot, histories->firstdouble[i] + dnum * slot); });
+        nearPairs_.look(i, list->firstneigh[i], list->numneigh[i], histories->firstneigh[i], histories->firstdouble[i],
+                        pg->dnum(), [&](int* flags, double* history) { part(flags, history); });
       }
-    touches_.clear();
-    const std::size_t found = nearPairs_.find(list);
-    for (std::size_t k = 0; k < found; k++) {
-      const NearPairs::Hit& hit = nearPairs_.hit(k);
-      const NearPairs::Near& near = nearPairs_.near(hit.near);
-      const int i = list->ilist[hit.row], j = near.grain;
-      const Place &one = nearPairs_.place(i), &two = nearPairs_.place(j);
-      const double dx = one.x - two.x, dy = one.y - two.y, dz = one.z - two.z;
-      const double square = dx * dx + dy * dy + dz * dz, radii = one.radius + two.radius;
-      int* const flags = histories->firstneigh[i] + near.slot;
-      double* const history = histories->firstdouble[i] + dnum * near.slot;
-      const bool touch = square < radii * radii;
-      nearPairs_.touches(hit.near, touch);
-      if (touch)
-        touches_.push_back({i, j, dx, dy, dz, square, flags, history});
-      else
-        part(flags, history);
+    const Touching& found = nearPairs_.find();
+    for (std::size_t k = 0; k < found.partedCount; k++) {
+      const NearPair& pair = nearPairs_.pairs()[found.parted[k]];
+      part(pair.flags, pair.history);
     }
-    return touches_.size();
+    return found;
   }
 
   static VIELTO_INLINE void add(double factor, const LIGGGHTS::ContactModels::ForceData& forces, double* f,
@@ -310,7 +237,6 @@ class FastPair : public LIGGGHTS::PairStyles::Granular<LIGGGHTS::ContactModels::
   const PackedLaw* packed_;  // NULL: contacts one by one
   TimeStepWatch timeStep_;
   NearPairs nearPairs_;
-  std::vector<Touch> touches_;
   Block block_ = Block();
 };
 

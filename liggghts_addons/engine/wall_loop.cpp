@@ -38,7 +38,10 @@ using vielto::tally;
 using vielto::Vec;
 
 FixViEltoWall::FixViEltoWall(LAMMPS* lammps, int narg, char** arg)
-    : FixWallGran(lammps, narg, arg), packed_(vielto::packed_law(lammps)), motion_(lammps) {}
+    : FixWallGran(lammps, narg, arg),
+      near_(vielto::near_search(lammps)),
+      packed_(vielto::packed_law(lammps)),
+      motion_(lammps) {}
 
 void FixViEltoWall::post_force_mesh(int vflag) {
   bool plain = impl && radius_ && !atom->shapetype_flag && !store_force_contact_ && !store_force_contact_stress_;

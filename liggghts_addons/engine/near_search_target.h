@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The body of near_search.h for the registers that packed_number.h is compiled for; see there.
+#ifndef VIELTO_NEAR_SEARCH_TARGET_H
+#define VIELTO_NEAR_SEARCH_TARGET_H
+
+#include <algorithm>
+
+#include "engine/near_search.h"
+#include "engine/packed_number.h"
+
+namespace vielto {
+namespace {
+
+static_assert(sizeof(Place) == 4 * sizeof(double), "a place is a row of four numbers");
+static_assert(Pack::lanes <= 8, "one bit of a byte each");
+
+void near_places(const double* x, const double* radius, size_t count, Place* out) {
+  size_t i = 0;
+  // reads the number after the row: the next grain's first, so not for the last grain
+  if constexpr (transposes)
+    for (; i + 1 < count; i++) {
+      const hn::Vec<RowTag> row = hn::LoadU(RowTag(), x + 3 * i), last = hn::Set(RowTag(), radius[i]);
+      hn::StoreU(hn::IfThenElse(hn::FirstN(RowTag(), 3), row, last), RowTag(), &out[i].x);
+    }
+  for (; i < count; i++) out[i] = {x[3 * i], x[3 * i + 1], x[3 * i + 2], radius[i]};
+}
+
+VIELTO_INLINE double greatest(const Pack& a) { return hn::GetLane(hn::MaxOfLanes(Tag(), a.v)); }
+
+Drift near_drift(const Place* now, const Place* then, size_t count) {
+  Pack square = 0.0, growth = 0.0;
+  const size_t whole = count / Pack::lanes * Pack::lanes;
+  for (size_t i = 0; i < whole; i += Pack::lanes) {
+    Pack a[4], b[4];
+    columns<4>([&](int lane) { return &now[i + lane].x; }, a);
+    columns<4>([&](int lane) { return &then[i + lane].x; }, b);
+    const Pack dx = a[0] - b[0], dy = a[1] - b[1], dz = a[2] - b[2];
+    square = hn::Max(square.v, (dx * dx + dy * dy + dz * dz).v);
+    growth = hn::Max(growth.v, (a[3] - b[3]).v);
+  }
+  const Drift rest = plain_search.drift(now + whole, then + whole, count - whole);
+  return {std::max(greatest(square), rest.square), std::max(greatest(growth), rest.growth)};
+}
+
+// Appends base, base + 1, ... where a bit is set; writes up to a register beyond the last.
+VIELTO_INLINE void append(unsigned bits, size_t base, size_t* list, size_t& count) {
+  static_assert(sizeof(size_t) == 8, "an index has the width of a double");
+  const hn::RebindToUnsigned<Tag> d;
+  alignas(64) const unsigned char byte[8] = {static_cast<unsigned char>(bits)};
+  const auto where = hn::Iota(d, base);
+  hn::StoreU(hn::Compress(where, hn::LoadMaskBits(d, byte)), d, reinterpret_cast<uint64_t*>(list + count));
+  count += static_cast<size_t>(__builtin_popcount(bits));
+}
+
+void near_touching(const Place* places, const NearPair* pairs, size_t count, unsigned char* was, Touching& found) {
+  found.count = found.partedCount = 0;
+  for (size_t k = 0; k < count; k += Pack::lanes) {
+    const size_t lanes = std::min<size_t>(Pack::lanes, count - k);
+    Pack one[4], two[4];
+    columns<4>([&](int lane) { return &places[pairs[k + lane].i].x; }, one);
+    columns<4>([&](int lane) { return &places[pairs[k + lane].j].x; }, two);
+    const Pack dx = one[0] - two[0], dy = one[1] - two[1], dz = one[2] - two[2], radii = one[3] + two[3];
+    alignas(64) unsigned char byte[8] = {0};
+    hn::StoreMaskBits(Tag(), (dx * dx + dy * dy + dz * dz < radii * radii).m, byte);
+    const unsigned touches = byte[0] & ((1u << lanes) - 1);
+    append(touches, k, found.pairs, found.count);
+    const unsigned parted = was[k / Pack::lanes] & ~touches;
+    if (parted) append(parted, k, found.parted, found.partedCount);
+    was[k / Pack::lanes] = static_cast<unsigned char>(touches);
+  }
+  if (found.count > 0) std::fill_n(found.pairs + found.count, Pack::lanes, found.pairs[found.count - 1]);
+}
+
+}  // namespace
+}  // namespace vielto
+
+#endif
