@@ -111,6 +111,16 @@ Fix* make_wall_fix(LAMMPS* lmp, int narg, char** arg) {
   return new TimedWall<FixWallGran>(lmp, narg, arg);
 }
 
+// LIGGGHTS' own integrator and gravity for the stock law, as in the stock program.
+typedef Fix* (*FixMaker)(LAMMPS*, int, char**);
+FixMaker ours[2], stock[2];
+const char* const motions[2] = {"nve/sphere", "gravity"};
+
+template <int Which>
+Fix* make_motion(LAMMPS* lmp, int narg, char** arg) {
+  return (vielto::settings().law ? ours : stock)[Which](lmp, narg, arg);
+}
+
 template <class PairStyle>
 PairStyles::IGranularPairStyle* make_pair(LAMMPS* lmp, PairGran* parent, int64_t hash) {
   return new TimedPair<PairStyle>(lmp, parent, hash);
@@ -169,8 +179,13 @@ int main(int argc, char** argv) {
   MPI_Init(&argc, &argv);
   {
     LAMMPS lammps(argc, argv, MPI_COMM_WORLD);
+    auto& fixes = *(lammps.modify->*vielto::Handed<FixTable>::pointer);
+    for (int k = 0; k < 2; k++) stock[k] = fixes[motions[k]];
     vielto::install(&lammps);
-    (*(lammps.modify->*vielto::Handed<FixTable>::pointer))["wall/gran"] = &make_wall_fix;
+    for (int k = 0; k < 2; k++) ours[k] = fixes[motions[k]];
+    fixes[motions[0]] = &make_motion<0>;
+    fixes[motions[1]] = &make_motion<1>;
+    fixes["wall/gran"] = &make_wall_fix;
     // after LIGGGHTS has registered its own, which would replace ours
     using Ours = GranStyle<VIELTO, TANGENTIAL_VIELTO, COHESION_OFF, ROLLING_VIELTO, SURFACE_DEFAULT>;
     using Stock = GranStyle<HOOKE_STIFFNESS, TANGENTIAL_HISTORY, COHESION_OFF, ROLLING_EPSD2, SURFACE_DEFAULT>;

@@ -66,6 +66,17 @@ struct PackedGrains {
   double *f, *torque;
 };
 
+// Grains to be moved by a step: `count` from the first, those of the group.
+struct GrainMotion {
+  size_t count;
+  int group;
+  const int* mask;
+  const double *radius, *mass, *torque;
+  double *x, *v, *omega, *f;
+  double half, whole, halfOverInertia;  // of a time step, s; half over the moment of inertia over m R^2
+  double acceleration[3];
+};
+
 /* `touching`: numbers of the pairs of the block. A law returns whether some overlap may exceed greatestOverlap. `add`
    adds in the order of the contacts, so that sums are rounded as if they came one by one. */
 struct PackedLaw {
@@ -73,6 +84,9 @@ struct PackedLaw {
   void (*add)(const PackedStep&, const PackedGrains&, const NearPair*, const size_t* touching, int count, const Block&);
   bool (*walls)(const PackedStep&, Block&, int count);
   NearSearch search;
+  void (*kick_and_move)(const GrainMotion&);  // first half step of fix nve/sphere
+  void (*kick)(const GrainMotion&);           // its second half
+  void (*weigh)(const GrainMotion&);          // fix gravity
 };
 
 // NULL: contact by contact. Stops the run where VIELTO_LANES asks for what there is not.

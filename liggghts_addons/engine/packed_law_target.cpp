@@ -2,6 +2,7 @@
 // The body of packed_law.h; compiled once for each instruction set, which VIELTO_PACKED_SET names.
 #include <algorithm>
 
+#include "engine/grain_motion_target.h"
 #include "engine/near_search_target.h"
 #include "engine/packed_law.h"
 #include "engine/packed_number.h"
@@ -258,7 +259,12 @@ void add(const PackedStep& step, const PackedGrains& g, const NearPair* pairs, c
 }  // namespace
 
 extern const PackedLaw VIELTO_PACKED_SET;
-const PackedLaw VIELTO_PACKED_SET = {
-    &press, &add, &evaluate<true>, {Pack::lanes, &near_places, &near_drift, &near_touching}};
+const PackedLaw VIELTO_PACKED_SET = {&press,
+                                     &add,
+                                     &evaluate<true>,
+                                     {Pack::lanes, &near_places, &near_drift, &near_touching},
+                                     &integrate<true>,
+                                     &integrate<false>,
+                                     &weigh};
 
 }  // namespace vielto

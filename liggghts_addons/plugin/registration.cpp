@@ -27,6 +27,7 @@
 #include "fixes/fix_vielto_plate.h"
 #include "fixes/fix_vielto_record.h"
 #include "fixes/fix_vielto_shear.h"
+#include "engine/grain_motion.h"
 #include "engine/wall_loop.h"
 #include "script/script_command.h"
 #include "engine/private_access.h"
@@ -132,6 +133,8 @@ void install(LAMMPS* lmp) {
   fixes["vielto/watch"] = &make_fix<FixViEltoWatch>;
   if (!stock_wall) stock_wall = fixes["wall/gran"];
   fixes["wall/gran"] = &make_wall_fix;
+  fixes["nve/sphere"] = &make_fix<FixViEltoIntegrate>;
+  fixes["gravity"] = &make_fix<FixViEltoGravity>;
   (*(lmp->input->*Handed<CommandTable>::pointer))["vielto"] = &run_command;
 }
 
