@@ -210,14 +210,28 @@ void ViEltoCommand::close(int, char** arg) {
   stop_if(fault);
 }
 
-void ViEltoCommand::repeat(int, char** arg) {
+void ViEltoCommand::repeat(int narg, char** arg) {
   const int times = force->inumeric(FLERR, arg[1]);
-  const std::string command = arg[2];  // LIGGGHTS takes its words away as it reads another line
-  for (int i = 1; i <= times; i++) {
-    std::string line = command;
-    for (std::size_t at = 0; (at = line.find('%', at)) != std::string::npos;) line.replace(at, 1, std::to_string(i));
-    input->one(line.c_str());
+  std::vector<std::string> commands(arg + 2, arg + narg);  // LIGGGHTS takes its words away as it reads another line
+  std::string until;
+  if (commands.size() > 2 && commands[commands.size() - 2] == "until") {
+    until = commands.back();
+    commands.resize(commands.size() - 2);
   }
+  for (int i = 1; i <= times; i++) {
+    for (std::string line : commands) {
+      for (std::size_t at = 0; (at = line.find('%', at)) != std::string::npos;) line.replace(at, 1, std::to_string(i));
+      input->one(line.c_str());
+    }
+    if (!until.empty() && value_of(until) != 0) return;
+  }
+}
+
+double ViEltoCommand::value_of(std::string name) {
+  const int variable = input->variable->find(&name[0]);
+  if (variable < 0 || !input->variable->equalstyle(variable))
+    vielto::stop_all(lmp, ("vielto: repeat until " + name + ": no such equal-style variable").c_str());
+  return input->variable->compute_equal(variable);
 }
 
 void ViEltoCommand::setup(int narg, char** arg) {

@@ -19,7 +19,9 @@
                                                set variable NAME to the shortest half period of a contact, s, for grains of this
                                                radius (m) and density (kg/m3); needs the pair_style line and properties
      vielto words NAME W1 W2 ...               set variable NAME to these words (quoted text is not substituted by LIGGGHTS)
-     vielto repeat N "COMMAND"                 N times this command, with 1 ... N for % in it
+     vielto repeat N "COMMAND" ... [until NAME]
+                                               N times these commands, with 1 ... N for % in them; ends after the time that leaves
+                                               variable NAME other than 0
      vielto property NAME GRAIN WALL           fix NAME all property/global NAME peratomtype GRAIN WALL, with GRAIN again for
                                                a third type (fixed grains)
      vielto pair_property NAME GRAIN WALL      the same for a peratomtypepair: of grain on grain and of grain on wall
@@ -60,6 +62,7 @@ class ViEltoCommand : protected Pointers {
   void grains(int narg, char** arg);
   void setup(int narg, char** arg);
   void repeat(int narg, char** arg);
+  double value_of(std::string name);
   void share(std::vector<std::string>& texts);
   void close(int narg, char** arg);
 };

@@ -260,4 +260,22 @@ TEST(ViEltoCommand, HalfPeriodBeforeThePairStyleIsAnError) {
   expect_error(run, {"needs 'pair_style gran model vielto"});
 }
 
+TEST(ViEltoCommand, RepeatsUntilItsVariableIsNotZero) {
+  Liggghts run;
+  run.script = head(run, {Sphere()}, {Material()}, 0.05) +
+               "variable k equal 0\nvariable enough equal v_k>2\n"
+               "vielto repeat 9 \"variable k equal %\" \"print 'time ${k}, enough ${enough}'\" until enough\n";
+  const Outcome outcome = run.start();
+  EXPECT_EQ(outcome.status, 0) << outcome.text;
+  for (const char* line : {"\ntime 1, enough 0\n", "\ntime 2, enough 0\n", "\ntime 3, enough 1\n"})
+    EXPECT_NE(outcome.text.find(line), std::string::npos) << line << outcome.text;
+  EXPECT_EQ(outcome.text.find("\ntime 4"), std::string::npos);
+}
+
+TEST(ViEltoCommand, RepeatUntilAnUnknownVariableIsAnError) {
+  Liggghts run;
+  run.script = head(run, {Sphere()}, {Material()}, 0.05) + "vielto repeat 9 \"run 1\" until nothing\n";
+  expect_error(run, {"repeat until nothing", "no such equal-style variable"});
+}
+
 }  // namespace
