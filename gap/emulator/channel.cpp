@@ -82,16 +82,17 @@ SortedRuns sorted(const Channel& channel, const Library& library, const Values& 
     const Run& run = library.runs[v->run];
     Point p = channel.point(v->row);
     const double y = channel.smoothed(v->row.value);
-    if (run.baseline) {
+    if (run.baseline()) {
       add_to(runs.baseline, p, y);
-    } else if (run.effect == "none") {
+    } else if (run.effects.empty()) {
       p.z = scale.in_units(run.parameters);
       add_to(runs.parameters, p, y);
-    } else {
+    } else if (!run.varies_several()) {
+      const auto& [name, strength] = *run.effects.begin();
       const auto effect =
-          std::find_if(effects.begin(), effects.end(), [&](const Effect& e) { return e.name == run.effect; });
-      p.t = run.strength / largest_strength(*effect);
-      add_to(runs.by_effect[run.effect], p, y);
+          std::find_if(effects.begin(), effects.end(), [&, &n = name](const Effect& e) { return e.name == n; });
+      p.t = strength / largest_strength(*effect);
+      add_to(runs.by_effect[name], p, y);
     }
   }
   return runs;
@@ -101,7 +102,7 @@ double root_mean_square_of_baseline(const Library& library, const Values& values
   double squares = 0;
   int count = 0;
   for (const LibraryValue* v : values)
-    if (library.runs[v->run].baseline) squares += v->row.value * v->row.value, ++count;
+    if (library.runs[v->run].baseline()) squares += v->row.value * v->row.value, ++count;
   return std::sqrt(squares / std::max(count, 1));
 }
 

@@ -24,6 +24,44 @@ namespace fs = std::filesystem;
 const std::set<std::string> kOwnFiles = {"design.csv", "posterior.csv", "members.csv",    "discrepancy.csv",
                                          "inputs.csv", "sources.csv",   "covariance.csv", "effects.csv"};
 
+// "cohesion+shape" and "150+0.2". Errors: BadInput with the column.
+std::map<std::string, double> effects_of(const std::string& path, int line, std::string_view names,
+                                         std::string_view strengths, const std::vector<Effect>& effects) {
+  const auto parts = [](std::string_view text) {
+    std::vector<std::string_view> result;
+    for (std::size_t at = 0; (at = text.find('+')) != std::string_view::npos; text.remove_prefix(at + 1))
+      result.push_back(text.substr(0, at));
+    result.push_back(text);
+    return result;
+  };
+  const std::vector<std::string_view> name = parts(names), strength = parts(strengths);
+  if (name.size() != strength.size())
+    throw BadInput(path, line, "strength", fmt::format("states {} for {} effects", strength.size(), name.size()),
+                   "state one strength an effect, as cohesion+shape and 150+0.2");
+  std::map<std::string, double> result;
+  for (std::size_t k = 0; k < name.size(); ++k) {
+    const double s = column_number(path, line, "strength", strength[k]);
+    if (names == "none") {
+      if (s != 0)
+        throw BadInput(path, line, "strength", "is not 0 for the effect 'none'", "name the effect or write 0");
+      return {};
+    }
+    const auto effect =
+        std::find_if(effects.begin(), effects.end(), [&](const Effect& e) { return e.name == name[k]; });
+    if (effect == effects.end())
+      throw BadInput(path, line, "effect", fmt::format("'{}' has no file", name[k]),
+                     "add its NAME.toml to the effects' folder, or write none");
+    if (s < effect->prior_low || s > effect->prior_high)
+      throw BadInput(path, line, "strength",
+                     fmt::format("{} is outside the prior range of {}, {} to {}", s, name[k], effect->prior_low,
+                                 effect->prior_high),
+                     "run strengths inside it");
+    if (!result.emplace(name[k], s).second)
+      throw BadInput(path, line, "effect", fmt::format("names {} twice", name[k]), "state its strength once");
+  }
+  return result;
+}
+
 void read_design(Library& library, const std::vector<Effect>& effects) {
   const std::string path = (fs::path(library.folder) / "design.csv").string();
   std::map<std::string, int> tests, hashes;
@@ -33,8 +71,7 @@ void read_design(Library& library, const std::vector<Effect>& effects) {
         Run run;
         run.line = line;
         run.test = f[0];
-        run.effect = f[1];
-        run.strength = column_number(path, line, "strength", f[2]);
+        run.effects = effects_of(path, line, f[1], f[2], effects);
         const double seed = column_number(path, line, "seed", f[3]);
         run.seed = static_cast<int>(seed);
         run.run_hash = f[4];
@@ -49,21 +86,6 @@ void read_design(Library& library, const std::vector<Effect>& effects) {
         if (const auto [at, is_new] = hashes.emplace(run.run_hash, line); !is_new)
           throw BadInput(path, line, "run_hash", fmt::format("is the run of line {} again", at->second),
                          "state each run once");
-        if (run.effect == "none") {
-          if (run.strength != 0)
-            throw BadInput(path, line, "strength", "is not 0 for the effect 'none'", "name the effect or write 0");
-        } else {
-          const auto effect =
-              std::find_if(effects.begin(), effects.end(), [&](const Effect& e) { return e.name == run.effect; });
-          if (effect == effects.end())
-            throw BadInput(path, line, "effect", fmt::format("'{}' has no file", f[1]),
-                           "add its NAME.toml to the effects' folder, or write none");
-          if (run.strength < effect->prior_low || run.strength > effect->prior_high)
-            throw BadInput(path, line, "strength",
-                           fmt::format("{} is outside the prior range of {}, {} to {}", run.strength, run.effect,
-                                       effect->prior_low, effect->prior_high),
-                           "run strengths inside it");
-        }
         run.parameters.resize(static_cast<Eigen::Index>(f.size()) - 5);
         for (std::size_t k = 5; k < f.size(); ++k)
           run.parameters[static_cast<Eigen::Index>(k) - 5] = column_number(path, line, fmt::format("{}", k + 1), f[k]);
@@ -77,18 +99,13 @@ void read_design(Library& library, const std::vector<Effect>& effects) {
     return std::vector<double>(run.parameters.data(), run.parameters.data() + run.parameters.size());
   };
   for (const Run& run : library.runs)
-    if (run.effect == "none") ++counts[key(run)];
+    if (run.effects.empty()) ++counts[key(run)];
   if (counts.empty()) throw BadInput(path, 0, "holds no run of the baseline", "add runs of effect none");
   const auto most =
       std::max_element(counts.begin(), counts.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
   library.nominal =
       Eigen::Map<const Eigen::VectorXd>(most->first.data(), static_cast<Eigen::Index>(most->first.size()));
-  for (Run& run : library.runs) {
-    run.baseline = run.effect == "none" && key(run) == most->first;
-    if (run.effect != "none" && key(run) != most->first)
-      throw BadInput(path, run.line, "effect", "is run at other parameters than the baseline",
-                     "run effects at the baseline's own parameters");
-  }
+  for (Run& run : library.runs) run.nominal = key(run) == most->first;
 }
 
 /* What no simulated run can give: a bed without slope, power, stress or weight, a slope of 90 degrees. Such a row is a
@@ -109,7 +126,7 @@ void read_tables(Library& library) {
   std::vector<std::string> paths;
   for (const auto& entry : fs::directory_iterator(library.folder)) {
     const std::string name = entry.path().filename().string();
-    if (entry.path().extension() == ".csv" && kOwnFiles.count(name) == 0 &&
+    if (entry.path().extension() == ".csv" && kOwnFiles.count(name) == 0 && name.rfind("together", 0) != 0 &&
         name.find(".covariance.csv") == std::string::npos)
       paths.push_back(entry.path().string());
   }
@@ -146,7 +163,7 @@ void check_seeds(const Library& library) {
     const std::string where =
         fmt::format("{} {} at {}", value.row.apparatus, value.row.observable, conditions_text(value.row));
     auto& entry = counts.try_emplace(where, 0, &value).first->second;
-    entry.first += library.runs[value.run].baseline;
+    entry.first += library.runs[value.run].baseline();
   }
   for (const auto& [where, entry] : counts)
     if (entry.first < kLeastSeeds)
@@ -167,8 +184,7 @@ void read_family(Library& library) {
   if (names != library.parameter_names)
     throw BadInput(path, 1, fmt::format("names the parameters {}", fmt::join(names, ", ")),
                    fmt::format("name those of design.csv: {}", fmt::join(library.parameter_names, ", ")));
-  const bool shown = std::any_of(library.runs.begin(), library.runs.end(),
-                                 [](const Run& run) { return run.effect == "none" && !run.baseline; });
+  const bool shown = std::any_of(library.runs.begin(), library.runs.end(), [](const Run& run) { return !run.nominal; });
   if (!shown)
     throw BadInput(path, 0, "cannot be used: no run shows what its parameters do",
                    "add baseline runs at other members of the family to design.csv");
@@ -220,6 +236,11 @@ Library Library::read(const std::string& folder, const std::vector<Effect>& effe
   for (const char* name : {"inputs.csv", "effects.csv"})
     if (!fs::exists(fs::path(folder) / name))
       library.notes.push_back(fmt::format("the library has no {}: whether it is stale cannot be told", name));
+  const auto several =
+      std::count_if(library.runs.begin(), library.runs.end(), [](const Run& r) { return r.varies_several(); });
+  if (several > 0)
+    library.notes.push_back(
+        fmt::format("{} runs vary several things at once: they are kept, but not yet used", several));
   check_fresh(library);
   check_effects(library, effects);
   read_tables(library);

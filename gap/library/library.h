@@ -4,10 +4,10 @@
 // A folder with these files (all but design.csv and the tables are optional):
 //
 // - design.csv: test,effect,strength,seed,run_hash,PARAMETER... One row a run; `test` is its name in the tables, one
-// for
-//   each run; `effect` none and strength 0: the baseline; PARAMETER: the calibrated parameters of the run. The
-//   baseline's own are those of most of its runs; baseline runs at other values show what recalibration can do. Runs
-//   with an effect are made at the baseline's own.
+//   for each run; `effect` none and strength 0: the baseline; several at once as cohesion+shape, 150+0.2; PARAMETER:
+//   the calibrated parameters of the run, on top of which its effects act. The baseline's own are those of most of its
+//   runs; baseline runs at other values show what recalibration can do.
+// - together*.csv: designs of the plan (library_plan.h), not read here
 // - other *.csv: observation tables, their rows under the tests of the design; u and role are not used
 // - posterior.csv: weight,PARAMETER... The calibrated family
 // - discrepancy.csv: what other contact laws do differently (discrepancy.h)
@@ -23,6 +23,7 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -34,12 +35,16 @@ namespace vielto::gap {
 constexpr int kLeastSeeds = 6;
 
 struct Run {
-  std::string test, effect, run_hash;
-  double strength = 0;
+  std::string test, run_hash;
+  std::map<std::string, double> effects;  // name -> strength
   int seed = 0;
   Eigen::VectorXd parameters;
-  bool baseline = false;  // no effect, the baseline's own parameters
+  bool nominal = false;  // the baseline's own parameters
   int line = 0;
+
+  bool baseline() const { return effects.empty() && nominal; }
+  // Not one effect alone nor other parameters alone.
+  bool varies_several() const { return effects.size() + !nominal > 1; }
 };
 
 struct LibraryValue {

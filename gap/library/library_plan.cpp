@@ -88,11 +88,15 @@ FamilyFile read_family_file(const std::string& path) {
   return family;
 }
 
+const Effect* effect_called(const std::string& name, const std::vector<Effect>& effects) {
+  const auto found = std::find_if(effects.begin(), effects.end(), [&](const Effect& e) { return e.name == name; });
+  return found == effects.end() ? nullptr : &*found;
+}
+
 const Effect& effect_of(const TomlTable& t, const std::vector<Effect>& effects) {
   const std::string name = t.text("name");
-  const auto found = std::find_if(effects.begin(), effects.end(), [&](const Effect& e) { return e.name == name; });
-  if (found == effects.end())
-    t.refuse("name", fmt::format("'{}' has no effect file", name), "add it to libraries/effects");
+  const Effect* found = effect_called(name, effects);
+  if (!found) t.refuse("name", fmt::format("'{}' has no effect file", name), "add it to libraries/effects");
   return *found;
 }
 
@@ -102,9 +106,85 @@ bool same_setting(const std::string& a, const std::string& b) {
   return x && y ? std::fabs(*x - *y) <= 1e-8 * std::fabs(*y) : a == b;
 }
 
+// What the effects of a rig start from.
+std::map<std::string, double> base_of(const Rig& rig, const std::map<std::string, std::string>& settings) {
+  std::map<std::string, double> base = rig.base;
+  for (const auto& [name, value] : settings)
+    if (const auto number = finite_number(value)) base[name] = *number;
+  return base;
+}
+
+// Parameters of a row of a design; none stated: the baseline's own.
+void take_parameters(LibraryRun& run, const std::map<std::string, double>& stated,
+                     const std::vector<std::string>& names, const std::string& file, int line) {
+  if (stated.empty()) return;
+  for (const std::string& name : names)
+    if (stated.count(name) == 0)
+      throw BadInput(file, line, name, "is empty, but other calibrated parameters are stated",
+                     "state all of a member or none");
+  run.parameters = stated;
+  for (const auto& [name, value] : stated) run.settings[name] = number_text(value);
+}
+
+// Rows of effects and calibrated parameters. Each effect starts from what the row states and the effects before it
+// made.
+std::vector<LibraryRun> read_together(const std::string& file, const std::vector<std::string>& parameters,
+                                      const std::map<std::string, double>& own, const Rig& rig,
+                                      const std::map<std::string, std::string>& common,
+                                      const std::vector<Effect>& effects) {
+  std::vector<std::vector<std::string>> cells;
+  const std::vector<std::string> names = read_columns(
+      file, {}, [&](int, const std::vector<std::string_view>& f) { cells.emplace_back(f.begin(), f.end()); });
+  const auto is_parameter = [&](const std::string& name) {
+    return std::find(parameters.begin(), parameters.end(), name) != parameters.end();
+  };
+  for (const std::string& name : names) {
+    const Effect* effect = effect_called(name, effects);
+    if (!effect && !is_parameter(name))
+      throw BadInput(file, 1, name, "is neither an effect nor a parameter of the family",
+                     "name files of libraries/effects and columns of the family's file");
+    if (effect && !effect->acts_on_rig(rig.name))
+      throw BadInput(file, 1, name, fmt::format("does nothing in {}", rig.name), "leave the column out");
+  }
+  std::vector<LibraryRun> runs;
+  for (std::size_t r = 0; r < cells.size(); ++r) {
+    const int line = static_cast<int>(r) + 2;
+    LibraryRun run{"", "", {}, 0, own, {}, {}};
+    std::map<std::string, double> stated;
+    for (std::size_t k = 0; k < names.size(); ++k)
+      if (!cells[r][k].empty()) {
+        const double value = column_number(file, line, names[k], cells[r][k]);
+        if (is_parameter(names[k]))
+          stated[names[k]] = value;
+        else if (value != 0)
+          run.effects[names[k]] = value;
+      }
+    take_parameters(run, stated, parameters, file, line);
+    for (const auto& [name, strength] : run.effects) {
+      const Effect& effect = *effect_called(name, effects);
+      if (strength < effect.prior_low || strength > effect.prior_high)
+        throw BadInput(file, line, name, fmt::format("{} is outside the prior range", strength),
+                       fmt::format("write strengths from {} to {}", effect.prior_low, effect.prior_high));
+      std::map<std::string, std::string> before = common;
+      for (const auto& [var, value] : run.settings) before[var] = value;
+      for (const VarChange& change : effect.vars)
+        if (change.acts_on(rig.name) && !change.needs_base() && run.settings.count(change.name))
+          throw BadInput(file, line, name, fmt::format("sets {}, which the row sets already", change.name),
+                         "leave one of both out of the row");
+      for (const auto& [var, value] : rig.settings(effect, strength, base_of(rig, before))) run.settings[var] = value;
+      run.changes[name] = effect.changes(rig.name);
+    }
+    if (run.effects.empty() && stated.empty())
+      throw BadInput(file, line, "states neither an effect nor parameters",
+                     "the baseline has its own seeds; remove it");
+    runs.push_back(std::move(run));
+  }
+  return runs;
+}
+
 void add_rig(LibraryPlan& plan, const TomlTable& t, const std::vector<Effect>& effects, const std::string& root,
              int seeds, const FamilyFile& family, const std::vector<std::size_t>& members) {
-  t.only({"name", "settings", "conditions", "members_at", "effect"});
+  t.only({"name", "settings", "conditions", "members_at", "effect", "design"});
   const Rig rig = Rig::read(t.text("name"), root);
   plan.rigs.push_back(rig);
   std::map<std::string, std::string> common;
@@ -153,7 +233,7 @@ void add_rig(LibraryPlan& plan, const TomlTable& t, const std::vector<Effect>& e
   };
   for (int s = 0; s < *std::max_element(seeds_at.begin(), seeds_at.end()); ++s)
     for (std::size_t c = 0; c < conditions.size(); ++c)
-      if (s < seeds_at[c]) add(c, "none", s + 1, {"", "", "none", 0, 0, own, {}, ""});
+      if (s < seeds_at[c]) add(c, "none", s + 1, {"", "", {}, 0, own, {}, {}});
   if (t.has("members_at"))
     for (std::size_t m = 0; m < members.size(); ++m) {
       const std::size_t at = members[m];
@@ -172,18 +252,11 @@ void add_rig(LibraryPlan& plan, const TomlTable& t, const std::vector<Effect>& e
     for (const double strength : numbers_of(e, "strengths")) {
       LibraryRun run{"",
                      "",
-                     effect.name,
-                     strength,
+                     {{effect.name, strength}},
                      0,
                      own,
-                     rig.settings(effect, strength,
-                                  [&] {
-                                    std::map<std::string, double> base = rig.base;
-                                    for (const auto& [name, value] : common)
-                                      if (const auto number = finite_number(value)) base[name] = *number;
-                                    return base;
-                                  }()),
-                     effect.changes(rig.name)};
+                     rig.settings(effect, strength, base_of(rig, common)),
+                     {{effect.name, effect.changes(rig.name)}}};
       if (run.settings.empty() || strength < effect.prior_low || strength > effect.prior_high)
         e.refuse("strengths", fmt::format("{} is 0 or outside the prior range", strength),
                  fmt::format("write strengths from {} to {}", effect.prior_low, effect.prior_high));
@@ -191,6 +264,14 @@ void add_rig(LibraryPlan& plan, const TomlTable& t, const std::vector<Effect>& e
         for (const std::size_t c : places_of(e, "at", conditions.size()))
           add(c, fmt::format("{}{}", effect.name, number_text(strength)), 301 + s, run);
     }
+  }
+  for (const TomlTable& d : tables_of(t, "design")) {
+    d.only({"file", "at"});
+    const std::string file = (fs::path(t.path()).parent_path() / d.text("file")).lexically_normal().string();
+    const std::vector<LibraryRun> rows = read_together(file, plan.parameter_names, own, rig, common, effects);
+    for (std::size_t k = 0; k < rows.size(); ++k)
+      for (const std::size_t c : places_of(d, "at", conditions.size()))
+        add(c, fmt::format("{}{}", fs::path(file).stem().string(), k + 1), 1001 + static_cast<int>(k), rows[k]);
   }
 }
 
@@ -281,6 +362,22 @@ void write_study(const LibraryPlan& plan, const std::string& path) {
   write_whole_file(path, text);
 }
 
+namespace {
+
+std::string joined_names(const std::map<std::string, double>& effects) {
+  std::vector<std::string> names;
+  for (const auto& [name, strength] : effects) names.push_back(name);
+  return names.empty() ? "none" : fmt::format("{}", fmt::join(names, "+"));
+}
+
+std::string joined_strengths(const std::map<std::string, double>& effects) {
+  std::vector<std::string> strengths;
+  for (const auto& [name, strength] : effects) strengths.push_back(number_text(strength));
+  return strengths.empty() ? "0" : fmt::format("{}", fmt::join(strengths, "+"));
+}
+
+}  // namespace
+
 Collected collect_library(const LibraryPlan& plan, const std::string& results, const std::string& folder) {
   fs::create_directories(folder);
   std::map<std::string, std::string> hash_of;  // file name -> hash of what is there now
@@ -321,9 +418,9 @@ Collected collect_library(const LibraryPlan& plan, const std::string& results, c
                        "run it again, or bring the plan and the effect's file back");
     made["parameters"].erase("run");
     design +=
-        fmt::format("{},{},{},{},{}{}\n", run.name, run.effect, number_text(run.strength), run.seed,
+        fmt::format("{},{},{},{},{}{}\n", run.name, joined_names(run.effects), joined_strengths(run.effects), run.seed,
                     sha256_of_text(made["hashes"].dump() + made["parameters"].dump()), parameters_text(run.parameters));
-    if (!run.changes.empty()) changes.insert(fmt::format("{},{},{}", run.effect, run.rig, run.changes));
+    for (const auto& [effect, changed] : run.changes) changes.insert(fmt::format("{},{},{}", effect, run.rig, changed));
     for (Observation row : read_observations(table)) {
       row.test = run.name;
       rows.push_back(row);

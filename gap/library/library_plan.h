@@ -18,6 +18,10 @@
 //   strengths = [30000, 60000]
 //   at = [1]
 //   seeds = 1                                  optional
+//   [[rig.design]]                             effects and calibrated parameters together
+//   file = "together.csv"                      a row a run, a column each for effects (strength; 0 or empty: not there)
+//                                              and for the family's parameters (all or none; empty: the baseline's own)
+//   at = [1, 2]                                every row is run at each of these conditions, one seed
 //   [[bench]]                                  what the cards say, not simulated
 //   observable = "shaft_speed"
 //   rows = [{speed = 0.48, value = 0.48}]      slopes = {PARAMETER = d value/d PARAMETER}: how it goes with calibrated
@@ -37,12 +41,12 @@
 namespace vielto::gap {
 
 struct LibraryRun {
-  std::string name, rig, effect = "none";
-  double strength = 0;
+  std::string name, rig;
+  std::map<std::string, double> effects;  // name -> strength
   int seed = 0;
   std::map<std::string, double> parameters;     // of the family, all of them
   std::map<std::string, std::string> settings;  // -var, without seed and run
-  std::string changes;                          // of the effect in the rig (Effect::changes)
+  std::map<std::string, std::string> changes;   // of each effect in the rig (Effect::changes)
 };
 
 struct LibraryPlan {

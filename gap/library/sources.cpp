@@ -104,11 +104,12 @@ nlohmann::ordered_json sources_json(const Library& library, const std::vector<st
     Place& place = places[conditions_text(*row->second)];
     place.row = row->second;
     const Run& run = *run_of.at(test);
-    if (run.baseline) {
+    if (run.baseline()) {
       place.baseline[source].add(torque);
       if (source.first == "part" && source.second != "drum") rotor_of_run[test] += torque;
-    } else if (run.effect != "none") {
-      place.effects[run.effect][run.strength][source].add(torque);
+    } else if (run.effects.size() == 1 && run.nominal) {
+      const auto& [effect, strength] = *run.effects.begin();
+      place.effects[effect][strength][source].add(torque);
     }
   });
   for (const auto& [test, torque] : rotor_of_run) places[conditions_text(*row_of.at(test))].rotor.add(torque);

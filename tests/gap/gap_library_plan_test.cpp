@@ -266,6 +266,67 @@ TEST_F(GapLibraryPlan, BenchRowsGoWithTheFamily) {
   expect_one_line("is no calibrated parameter");
 }
 
+// Effects and calibrated parameters together: each effect acts on top of what its row states, and the library says what
+// was varied.
+TEST_F(GapLibraryPlan, EffectsAndParametersTogether) {
+  write("library/together.csv",
+        "wall_friction,cohesion,shape,frictionAngle,rollingResistance\n6,150,0.1,22,0.2\n-4,,,,\n0,,,24,0.3\n");
+  const std::string plain = kPlan, design = "members_at = [2]\n[[rig.design]]\nfile = \"together.csv\"\nat = [1, 2]";
+  std::string text = plain;
+  write("library/plan.toml", text.replace(text.find("members_at = [2]"), 16, design));
+  ASSERT_EQ(plan(), 0) << err_;
+  std::map<std::string, std::map<std::string, std::string>> runs;
+  for (const auto& row : table(folder_ / "study.csv")) runs[row.at("run")] = row;
+  ASSERT_EQ(runs.size(), 18u + 6);
+  const double wall = vielto::ParFile::read(VIELTO_SOURCE_DIR "/materials/steel.par").number("frictionAngle");
+  const auto& all = runs.at("mixer2_together1_s1001");
+  EXPECT_EQ(all.at("speed"), "1.5");
+  EXPECT_EQ(all.at("adhesionStrength"), "150");
+  EXPECT_EQ(all.at("frictionAngle"), "22");
+  EXPECT_DOUBLE_EQ(std::stod(all.at("rollingResistance")), 0.2 + 0.1);  // of the row, not of the card
+  EXPECT_DOUBLE_EQ(std::stod(all.at("wall_frictionAngle")), wall + 12);
+  EXPECT_EQ(runs.at("mixer1_together2_s1002").at("frictionAngle"), "");
+
+  for (const auto& [name, run] : runs) finish(run, script_hash());
+  ASSERT_EQ(collect(), 0) << err_;
+  std::map<std::string, std::map<std::string, std::string>> kept;
+  for (const auto& row : table(folder_ / "library/design.csv")) kept[row.at("test")] = row;
+  const auto& own = kept.at("mixer2_together1_s1001");
+  EXPECT_EQ(own.at("effect"), "cohesion+shape+wall_friction");
+  EXPECT_EQ(own.at("strength"), "150+0.1+6");
+  EXPECT_EQ(own.at("rollingResistance"), "0.2");
+  EXPECT_EQ(kept.at("mixer1_together2_s1002").at("effect"), "wall_friction");
+  EXPECT_EQ(kept.at("mixer1_together3_s1003").at("effect"), "none");
+  EXPECT_NE(content(folder_ / "library/effects.csv").find("shape,mixer,"), std::string::npos);
+  write("t.csv",
+        "test,role,apparatus,observable,value,u,unit,speed,fill,moisture,normal_stress,shear_velocity,tilt,wall,"
+        "material\n"
+        "a,fit,mixer,power,21,0.5,W,0.5,0.1,,,,,,millet\nb,fit,mixer,power,21,0.5,W,1.5,0.2,,,,,,millet\n");
+  EXPECT_EQ(gap("diagnose t.csv --library library --draws 20 --out answer"), 0) << err_;
+
+  const std::string old = content(folder_ / "library/design.csv");
+  const auto refused_library = [&](const std::string& from, const std::string& to, const std::string& part) {
+    std::string other = old;
+    write("library/design.csv", other.replace(other.find(from), from.size(), to));
+    EXPECT_EQ(gap("diagnose t.csv --library library --draws 20 --out other"), 2) << out_;
+    expect_one_line(part);
+  };
+  refused_library("150+0.1+6", "150+0.1", "states 2 for 3 effects");
+  refused_library("cohesion+shape+", "cohesion+cohesion+", "names cohesion twice");
+  refused_library("150+0.1+6", "150+0.1+60", "60 is outside the prior range of wall_friction");
+  const auto refused = [&](const std::string& design_text, const std::string& part) {
+    write("library/together.csv", design_text);
+    EXPECT_EQ(plan(), 2);
+    expect_one_line(part);
+  };
+  refused("wall_friction,magic\n1,2\n", "together.csv, line 1, column magic: is neither an effect nor a parameter");
+  refused("wall_friction,size\n", "together.csv");
+  refused("wall_friction,frictionAngle,rollingResistance\n1,22,\n",
+          "together.csv, line 2, column rollingResistance: is empty");
+  refused("wall_friction,cohesion\n1,1e9\n", "together.csv, line 2, column cohesion: 1000000000 is outside the prior");
+  refused("wall_friction,cohesion\n0,\n", "together.csv, line 2: states neither an effect nor parameters");
+}
+
 TEST_F(GapLibraryPlan, RefusesRunsOfAnotherScript) {
   ASSERT_EQ(plan(), 0) << err_;
   for (const auto& run : table(folder_ / "study.csv")) finish(run, std::string(64, '0'));
