@@ -20,5 +20,6 @@ void add_rigs_command(CLI::App& app);
 
 // --rigs FILE of a command that reads observation tables or makes runs.
 void add_rigs_option(CLI::App* command);
+void add_copy_command(CLI::App& app);
 
 }  // namespace vielto

@@ -19,6 +19,7 @@
 #include "commands.h"
 #include "core/bad_input.h"
 #include "core/csv.h"
+#include "core/data_folder.h"
 #include "core/rig_table.h"
 #include "core/seal.h"
 #include "gap/library/library_plan.h"
@@ -302,7 +303,10 @@ using Options = std::shared_ptr<GapOptions>;
 
 void add_library_options(CLI::App* c, const Options& o) {
   add_rigs_option(c);
-  c->add_option("--library", o->files.library, "response library (libraries/millet/)")->required();
+  c->add_option("--library", o->files.library,
+                "response library: a folder, or the name of one that came with vielto (millet, wheat)")
+      ->required()
+      ->transform([](const std::string& given) { return named_in("libraries", given); });
   c->add_option("--effects", o->files.effects, "folder of effect files; without it effects/ beside the library");
   c->add_option("--settings", o->files.settings, "without it diagnosis.toml beside the library");
   c->add_option("--ignore", o->ignored, "conditions that need not agree with the library, such as moisture,wall")

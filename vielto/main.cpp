@@ -9,6 +9,7 @@
 int main(int argc, char** argv) {
   CLI::App app{"vielto - mixing power of a granular mixer: geometry, records, numbers, regression, gap"};
   app.require_subcommand(1);
+  app.set_version_flag("--version", "vielto " VIELTO_VERSION);
   vielto::add_geometry_command(app);
   vielto::add_post_command(app);
   vielto::add_fit_command(app);
@@ -18,6 +19,7 @@ int main(int argc, char** argv) {
   vielto::add_import_command(app);
   vielto::add_report_command(app);
   vielto::add_rigs_command(app);
+  vielto::add_copy_command(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/data_folder.h"
 #include "equation/dimensionless_groups.h"
 
 namespace vielto {
@@ -17,7 +18,8 @@ struct MaterialOptions {
 
   void add_to(CLI::App* command) {
     CLI::Option* card = command->add_option(
-        "--material", cards, "material card (NAME.par) of the grain NAME or of the wall NAME (repeatable)");
+        "--material", cards,
+        "material card of grain or wall: NAME.par, or NAME of one that came with vielto (repeatable)");
     CLI::Option* density =
         command->add_option("--bulk-density", bulk_density, "kg/m3, of the one material, without a card");
     CLI::Option* cohesion =
@@ -30,7 +32,7 @@ struct MaterialOptions {
     if (cards.empty() && bulk_density == 0)
       throw CLI::RequiredError("--material CARD, or --bulk-density and --bulk-cohesion,");
     std::vector<BulkMaterial> materials;
-    for (const std::string& card : cards) materials.push_back(BulkMaterial::read(card));
+    for (const std::string& card : cards) materials.push_back(BulkMaterial::read(named_in("materials", card, ".par")));
     if (cards.empty()) {
       BulkMaterial material;
       material.bulk_density = bulk_density;

@@ -60,7 +60,7 @@ Setting setting_of(const PredictOptions& o) {
   s.material = materials[0];
   if (!s.material.bulk_density || !s.material.bulk_cohesion)
     throw BadInput(s.material.name, 0, "the card does not state bulkDensity and bulkCohesion", "add both to the card");
-  if (!o.wall.empty()) s.wall = BulkMaterial::read(o.wall);
+  if (!o.wall.empty()) s.wall = BulkMaterial::read(named_in("materials", o.wall, ".par"));
   return s;
 }
 

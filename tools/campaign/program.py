@@ -51,9 +51,7 @@ def work(options):
     points = [p for p in every if p["run"].endswith(options.only)]
     if not points:
         raise BadInput(f"no run of {table} ends in {options.only}; --only takes the end of runs' names")
-    if not options.bin:
-        subprocess.run([ROOT / "scripts/install-packages", "demo", "campaign"], check=True)
-        subprocess.run([ROOT / "scripts/build", "release", "vielto", "vielto_run"], check=True)
+    options.bin = options.bin or programs()
     out = (options.out or ROOT / "results/studies" / table.stem).resolve()
     make_ready(known, out, points, options.again)
     status = run_all(known, out, points, options, table)
@@ -64,6 +62,24 @@ def work(options):
         lacking = f"; not in the tables: {', '.join(sorted(missing))}" if missing else ""
         raise RunFailed(f"not all runs ended well{lacking}; {out / 'snakemake.log'} tells why")
     return 0
+
+
+def programs():
+    """The folder of our liggghts and vielto: built in a repository; in a copy of the cases (`vielto copy`) what is installed."""
+    if (ROOT / "CMakeLists.txt").exists():
+        subprocess.run([ROOT / "scripts/install-packages", "demo", "campaign"], check=True)
+        subprocess.run([ROOT / "scripts/build", "release", "vielto", "vielto_run"], check=True)
+        return ROOT / "build/bin"
+    vielto = shutil.which("vielto")
+    if not vielto:
+        raise BadInput("vielto is not on the PATH; add the installation's bin folder, or state --bin")
+    if not shutil.which("snakemake"):
+        raise BadInput("snakemake is not installed; apt-get install snakemake")
+    prefix = pathlib.Path(vielto).resolve().parents[1]
+    for folder in [*prefix.glob("lib/vielto/bin"), *prefix.glob("lib/*/vielto/bin")]:
+        if (folder / "liggghts").exists():
+            return folder
+    raise BadInput(f"{prefix}: no liggghts of vielto is installed there; state its folder with --bin")
 
 
 def make_ready(known, out, points, again):
@@ -93,7 +109,7 @@ def run_all(known, out, points, options, table):
     command += ["--profile", HERE / "slurm"] if options.slurm else ["--cores", str(options.cores)]
     env = dict(
         os.environ,
-        PATH=f"{(options.bin or ROOT / 'build/bin').resolve()}:{os.environ['PATH']}",
+        PATH=f"{options.bin.resolve()}:{os.environ['PATH']}",
         OMPI_ALLOW_RUN_AS_ROOT="1",
         OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1",
     )
