@@ -13,8 +13,9 @@ end() {
 }
 trap end EXIT
 
+rm -f "$build"/vielto_*.deb
 (cd "$build" && cpack -G DEB >/dev/null)
-package=$(ls -t "$build"/vielto_*.deb | head -1)
+package=$(echo "$build"/vielto_*.deb)
 lintian --allow-root --fail-on error --suppress-tags bogus-mail-host "$package"
 [ -e "$root/usr/bin/apt-get" ] || debootstrap --variant=minbase bookworm "$root" >/dev/null
 cp /etc/resolv.conf "$root/etc/"
@@ -25,6 +26,7 @@ inside apt-get update -qq
 inside env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends /tmp/vielto.deb >/dev/null
 inside dpkg --verify vielto
 inside useradd -m stranger
+# shellcheck disable=SC2016
 inside su stranger -c '
   set -e
   cd ~
