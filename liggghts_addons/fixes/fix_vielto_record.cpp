@@ -5,8 +5,11 @@
 
 #include <cmath>
 #include <random>
+#include <sstream>
 
 #include "atom.h"
+#include "comm.h"
+#include "core/stopping_rule.h"
 #include "engine/law.h"
 #include "error.h"
 #include "fix_gravity.h"
@@ -56,6 +59,74 @@ FixViEltoRecord::FixViEltoRecord(LAMMPS* lammps, int narg, char** arg) : FixViEl
   const double length = std::sqrt(dot3(axis_, axis_));
   if (!(length > 0)) error->fix_error(FLERR, this, "axis has no length");
   for (double& a : axis_) a /= length;
+}
+
+FixViEltoRecord::~FixViEltoRecord() = default;
+
+int FixViEltoRecord::modify_param(int narg, char** arg) {
+  if (std::string(arg[0]) != "until") return 0;
+  if (narg < 3) error->fix_error(FLERR, this, "until takes two numbers, an uncertainty and the rows of a turn");
+  const double target = number(arg, 1), rows = number(arg, 2);
+  if (!(target > 0 && target < 1 && rows >= 1 && rows == std::floor(rows)))
+    error->fix_error(FLERR, this, "until U ROWS needs 0 < U < 1 and a whole number of rows");
+  rowsOfTurn_ = static_cast<int>(rows);
+  if (comm->me == 0) rule_ = std::make_unique<vielto::StoppingRule>(rowsOfTurn_, target);
+  return 3;
+}
+
+// The parts' torques stand after step, time, turn and idle. As printed, so that a resumed run decides alike.
+void FixViEltoRecord::row_stands(const std::string& line) {
+  if (!rule_) return;
+  std::istringstream in(line);
+  std::string field;
+  for (int k = 0; k < 4; k++) std::getline(in, field, ',');
+  double rotor = 0;
+  for (const Part& part : parts_) {
+    std::getline(in, field, ',');
+    if (part.name != "drum") rotor += atof(field.c_str());
+  }
+  rule_->add(rotor);
+}
+
+bool FixViEltoRecord::known() {
+  if (rowsOfTurn_ == 0 || (update->ntimestep - start_) / every_ % rowsOfTurn_ != 0) return false;
+  int done = rule_ && rule_->known();
+  MPI_Bcast(&done, 1, MPI_INT, 0, world);
+  return done != 0;
+}
+
+void FixViEltoRecord::post_run() {
+  FixViEltoRows::post_run();
+  if (!rule_) return;
+  const std::string text = what_is_known() + "\n";
+  for (FILE* to : {screen, logfile})
+    if (to) fprintf(to, "%s", text.c_str()), fflush(to);
+}
+
+std::string FixViEltoRecord::what_is_known() const {
+  const vielto::Look& l = rule_->last();
+  const double asked = 100 * rule_->target(), known = 100 * l.relative;
+  const int turns = rule_->turns();
+  char text[400];
+  const auto say = [&](const char* format, auto... values) {
+    snprintf(text, sizeof text, format, values...);
+    return std::string(text);
+  };
+  if (rule_->known())
+    return say("mean power known to %.2g %% (asked for: %.2g %%) from the last %d of %d turns", known, asked,
+               l.part.count, turns);
+  const std::string start = say("Warning: after %d turns the mean power is not known to %.2g %%: ", turns, asked);
+  if (l.part.verdict == vielto::Steadiness::too_few_turns) return start + "too few turns; raise turns";
+  if (l.part.verdict == vielto::Steadiness::start_up_reaches_limit)
+    return start + "the start-up still shows; raise turns";
+  if (l.part.verdict == vielto::Steadiness::trend)
+    return start +
+           say("the torque still drifts by %+.2g %% of its mean a turn; raise turns", 100 * l.part.slope / l.mean.mean);
+  if (!(std::fabs(l.mean.mean) > 0)) return start + "it is zero";
+  if (l.relative <= rule_->target())
+    return start + say("%.2g %%, but on %.0f effective samples, or with a drift, or for one turn only; raise turns",
+                       known, l.mean.effective_samples);
+  return start + say("%.2g %%; some %.0f turns would do", known, l.turns_needed);
 }
 
 int FixViEltoRecord::read_each(const char* name) {

@@ -13,6 +13,10 @@
        energy on|off         energy accounts (columns work_J ... ); default off
        turns T               length of the run in turns, for the progress line; 0: no progress line
 
+     fix_modify ID until U ROWS    end the run at the first turn after which the mean rotor torque of the steady turns
+   is known to the relative standard uncertainty U (postproc/core/stopping_rule.h); a turn has ROWS rows. Says at the
+   end of a run how well it is known, or why it cannot be.
+
    Torque columns: torque that the part exerts on the grains about the axis in the direction of rotation (positive: the
    drive supplies); force columns: force that the part exerts on the grains. Includes rolling and twisting couples.
    Global vector: 1 turn, 2 rotor torque of the last row, 3 drum torque of it, 4 greatest overlap so far, 5 dt over the
@@ -23,14 +27,23 @@ FixStyle(vielto / record, FixViEltoRecord)
 #ifndef LMP_FIX_VIELTO_RECORD_H
 #define LMP_FIX_VIELTO_RECORD_H
 
+#include <memory>
+
 #include "fixes/record_base.h"
+
+namespace vielto {
+class StoppingRule;
+}
 
 namespace LAMMPS_NS {
 
 class FixViEltoRecord : public FixViEltoRows {
  public:
   FixViEltoRecord(class LAMMPS*, int, char**);
+  ~FixViEltoRecord() override;
+  int modify_param(int, char**) override;
   void init() override;
+  void post_run() override;
   void pre_force(int) override;
   double compute_vector(int) override;
 
@@ -43,6 +56,8 @@ class FixViEltoRecord : public FixViEltoRows {
   std::string progress() override;
   std::vector<double> state() override { return {work_}; }
   void set_state(const double* list) override { work_ = list[0]; }
+  void row_stands(const std::string& line) override;
+  bool known() override;
 
  private:
   int read_each(const char* name);
@@ -51,6 +66,7 @@ class FixViEltoRecord : public FixViEltoRows {
   double potential_energy() const;
   void check_motion(const Part&, const Mesh&) const;
   void check_torque(const Part&, double torque) const;
+  std::string what_is_known() const;
   double turn() const { return elapsed() * speed_; }
 
   double speed_ = 0;
@@ -66,6 +82,9 @@ class FixViEltoRecord : public FixViEltoRows {
   double work_ = 0;     // of the rotor on the grains since the start, J
   double lastRotor_ = 0, lastDrum_ = 0;
   bool motionChecked_ = false;
+
+  int rowsOfTurn_ = 0;                          // 0: the run has its length
+  std::unique_ptr<vielto::StoppingRule> rule_;  // on processor 0
 };
 
 }  // namespace LAMMPS_NS

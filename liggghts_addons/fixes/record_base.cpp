@@ -17,6 +17,7 @@
 #include "force.h"
 #include "mesh_module_stress.h"
 #include "modify.h"
+#include "signal_handling.h"
 #include "update.h"
 #include "vielto_stop.h"
 
@@ -180,12 +181,27 @@ void FixViEltoRows::end_of_step() {
     watch_.look(when());
     const std::string values = row();
     if (file_) {
-      fprintf(file_, BIGINT_FORMAT "%s\n", update->ntimestep, values.c_str());
+      const std::string line = std::to_string(update->ntimestep) + values;
+      fprintf(file_, "%s\n", line.c_str());
       fflush(file_);
+      row_stands(line);
     }
     clear_interval();
+    if (known()) end_run();
   }
   show_progress();
+}
+
+/* LIGGGHTS leaves its loop of steps for a signal only; the script goes on because post_run takes the request back. One
+   that came from outside stays. */
+void FixViEltoRows::end_run() {
+  ended_ = !SignalHandler::request_quit;
+  SignalHandler::request_quit = true;
+}
+
+void FixViEltoRows::post_run() {
+  if (ended_) SignalHandler::request_quit = false;
+  ended_ = false;
 }
 
 double FixViEltoRows::kinetic_energy() const {
@@ -253,7 +269,9 @@ void FixViEltoRows::cut_file() {
   std::string line;
   while (std::getline(in, line) && !in.eof()) {
     const bool row = !line.empty() && line[0] >= '0' && line[0] <= '9';
-    if (!row || atoll(line.c_str()) <= update->ntimestep) out << line << '\n';
+    if (row && atoll(line.c_str()) > update->ntimestep) continue;
+    out << line << '\n';
+    if (row) row_stands(line);
   }
   out.close();
   if (!out || rename(cut.c_str(), path_.c_str()) != 0)

@@ -44,6 +44,7 @@ class FixViEltoRows : public Fix {
   void setup(int) override;
   void pre_force(int) override;
   void end_of_step() override;
+  void post_run() override;
   void write_restart(FILE*) override;
   void restart(char*) override;
 
@@ -76,6 +77,9 @@ class FixViEltoRows : public Fix {
   virtual std::string progress() { return ""; }       // line for the screen; empty: none
   virtual std::vector<double> state() { return {}; }  // to be kept in restart files; called by all processors
   virtual void set_state(const double*) {}
+  // On processor 0: a line of the file, as it is written and, after a restart, as it stands there already.
+  virtual void row_stands(const std::string&) {}
+  virtual bool known() { return false; }  // called by all processors after each row; true ends the run
 
   void add_force(Part&);   // of this step
   double elapsed() const;  // since the fix was made, s
@@ -105,10 +109,12 @@ class FixViEltoRows : public Fix {
   void take_up_forces();
   void check_time_step();
   void show_progress();
+  void end_run();
 
   std::vector<std::pair<std::string, std::string>> header_;
   FILE* file_ = nullptr;
   bool forcesRead_ = false;
+  bool ended_ = false;  // by this record, before its last step
   FixPropertyAtom* forces_ = nullptr;
   double progressStart_ = 0, progressLast_ = 0;
   bigint progressStep_ = 0;

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// -var powerUncertainty: a mixer run that ends when its mean power is known, and one that cannot know it. The rule
+// itself is tested on synthetic records in tests/core/stopping_rule_test.cpp.
+#include "mixer_runner.h"
+
+using namespace vielto_test;
+
+namespace {
+
+const std::string ends = "-var powerUncertainty 0.2 -var turns 25 -var rowsPerTurn 72 -var restartTurns 2 ";
+
+// Means of the rotor's torque over whole turns of 72 rows.
+std::vector<double> turn_means(const Table& table) {
+  std::vector<double> means;
+  for (std::size_t k = 0; k < table.rows.size(); k++) {
+    if (k % 72 == 0) means.push_back(0);
+    means.back() += rotor(table, k) / 72;
+  }
+  return means;
+}
+
+}  // namespace
+
+/* Batch means bound what the rule may have accepted: their spread over the root of their number is within a factor of 2
+   of the uncertainty asked for (a dozen of turns tell it to a third). */
+TEST(MixerUntilKnown, EndsAtATurnWithTheUncertaintyAskedFor) {
+  Mixer mixer;
+  const Outcome done = mixer.mixer("run", two, ends);
+  ASSERT_EQ(done.status, 0) << done.text;
+  EXPECT_NE(done.text.find("mean power known to"), std::string::npos) << done.text;
+  const Table table = mixer.csv("run/torque.csv");
+  ASSERT_EQ(table.rows.size() % 72, 0u);
+  const std::vector<double> means = turn_means(table);
+  EXPECT_GE(means.size(), 4u);
+  EXPECT_LT(means.size(), 25u);
+  double mean = 0, square = 0;
+  const double n = static_cast<double>(means.size()) - 1;  // without the start
+  for (std::size_t k = 1; k < means.size(); k++) mean += means[k] / n;
+  for (std::size_t k = 1; k < means.size(); k++) square += std::pow(means[k] - mean, 2) / (n - 1);
+  EXPECT_LT(std::sqrt(square / n), 2 * 0.2 * mean);
+}
+
+TEST(MixerUntilKnown, DecidesOnTheWholeRecordWhenResumed) {
+  Mixer mixer;
+  mixer.must("whole", two, ends);
+  mixer.must_break_off("broken", ends + two);
+  const Outcome done = mixer.mixer("broken", ends + two, "-var resume yes ");
+  ASSERT_EQ(done.status, 0) << done.text;
+  // the bed's own chaos makes its turns other ones after the restart; what was there before counts
+  const std::vector<double> whole = turn_means(mixer.csv("whole/torque.csv")),
+                            broken = turn_means(mixer.csv("broken/torque.csv"));
+  EXPECT_EQ(whole[0], broken[0]);
+  EXPECT_EQ(whole[1], broken[1]);
+  EXPECT_NE(done.text.find(fmt::format("of {} turns", broken.size())), std::string::npos) << done.text;
+  EXPECT_LT(broken.size(), 25u);
+}
+
+TEST(MixerUntilKnown, SaysThatItCannot) {
+  Mixer mixer;
+  const Outcome done = mixer.mixer("run", two, "-var powerUncertainty 0.0001 -var turns 5 -var rowsPerTurn 72 ");
+  ASSERT_EQ(done.status, 0) << done.text;
+  EXPECT_NE(done.text.find("Warning: after 5 turns the mean power is not known to 0.01 %"), std::string::npos)
+      << done.text;
+  EXPECT_EQ(mixer.csv("run/torque.csv").rows.size(), 5u * 72);
+}
