@@ -6,291 +6,468 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <filesystem>
 #include <map>
+#include <nlohmann/json.hpp>
+
+#include "core/bad_input.h"
+#include "report/diagnosis_plots.h"
+#include "report/json_table.h"
 
 namespace vielto::gap {
 namespace {
 
-using json = nlohmann::ordered_json;
+using nlohmann::json;
 
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text) out += c == '<' ? "&lt;" : c == '>' ? "&gt;" : c == '&' ? "&amp;" : std::string(1, c);
-  return out;
+constexpr double kFalseDiscoveries = 0.05;
+constexpr std::size_t kShownCauses = 8;
+constexpr double kShownProbability = 0.01, kShownPair = 0.1;
+constexpr std::size_t kListedCauses = 30;
+
+std::string text(const json& j, const char* key) { return j.at(key).get<std::string>(); }
+double number(const json& j, const char* key) { return j.at(key).get<double>(); }
+
+std::string percent(double share, const char* format = "{:.0f} %") {
+  const double rounded = std::round(1000 * share) / 10;
+  return fmt::format(fmt::runtime(format), std::fabs(rounded) < 0.5 ? std::fabs(rounded) : rounded);  // no -0
 }
 
-// A horizontal bar of `part` (0 to 1) of the width.
-std::string bar(double part, const char* colour) {
-  return fmt::format("<svg width=\"220\" height=\"14\"><rect width=\"{:.1f}\" height=\"14\" fill=\"{}\"/></svg>",
-                     220 * std::clamp(part, 0.0, 1.0), colour);
+// The name of an effect, of two, or of none of them, as it is read.
+std::string cause(const std::string& name) {
+  if (name == "no_gap") return "no gap";
+  if (name == "unknown") return "something not in the library";
+  std::string words;
+  for (const char c : name) words += c == '_' ? " " : c == '+' ? " and " : std::string(1, c);
+  return words;
 }
 
-// Relative gap to either side of a middle line, `full` at the edge.
-std::string signed_bar(double value, double full, const char* colour) {
-  const double length = 110 * std::min(1.0, std::fabs(value) / full);
-  return fmt::format(
-      "<svg width=\"220\" height=\"14\"><rect x=\"{:.1f}\" width=\"{:.1f}\" height=\"14\" fill=\"{}\"/>"
-      "<line x1=\"110\" x2=\"110\" y2=\"14\" stroke=\"black\"/></svg>",
-      value < 0 ? 110 - length : 110, length, colour);
+std::string place(const json& region) {
+  std::string words = text(region, "apparatus") + " " + text(region, "observable");
+  std::replace(words.begin(), words.end(), '_', ' ');
+  return words;
 }
 
 // What makes most of the uncertainty of a region or a trend: the sources with a quarter of u^2 or more, greatest first.
 // `unit` is 100 for per cent.
 std::string mostly_from(const json& region, double unit, const char* format) {
   std::vector<std::pair<double, std::string>> parts;
-  for (const auto& [name, u] : region["u_parts"].items()) parts.emplace_back(u.get<double>(), name);
+  for (const auto& [name, u] : region.at("u_parts").items()) parts.emplace_back(u.get<double>(), name);
   std::sort(parts.rbegin(), parts.rend());
-  const double u = region["u"].get<double>();
-  std::string text;
+  const double u = number(region, "u");
+  std::string words;
   for (const auto& [part, name] : parts)
     if (part * part >= u * u / 4)
-      text += fmt::format("{}{} {}", text.empty() ? "" : ", ", name, fmt::format(fmt::runtime(format), unit * part));
-  return text;
+      words += fmt::format("{}{} {}", words.empty() ? "" : ", ", name, fmt::format(fmt::runtime(format), unit * part));
+  return words;
 }
 
-std::string map_of_the_gap(const json& where) {
-  double full = 0.05;
-  for (const json& r : where) full = std::max(full, std::fabs(r["relative_gap"].get<double>()));
-  std::string rows;
-  for (const json& r : where) {
-    const bool found = r["q_value"].get<double>() <= 0.05;
-    rows += fmt::format(
-        "<tr><td>{} {}</td><td>{}</td><td>{}</td><td class=n>{:+.1f} %</td><td class=n>{:.1f} %</td><td>{}</td><td "
-        "class=n>{:+.1f}</td><td class=n>{:.2g}</td></tr>\n",
-        r["apparatus"].get<std::string>(), r["observable"].get<std::string>(), r["region"].get<std::string>(),
-        signed_bar(r["relative_gap"], full, found ? "#c0392b" : "#bbbbbb"), 100 * r["relative_gap"].get<double>(),
-        100 * r["u"].get<double>(), mostly_from(r, 100, "{:.0f} %"), r["z"].get<double>(), r["q_value"].get<double>());
-  }
-  return "<table><tr><th>observable</th><th>region</th><th>simulated against "
-         "measured</th><th>gap</th><th>u</th><th>u mostly from</th><th>z</th><th>q</th></tr>\n" +
-         rows +
-         "</table>\n<p>Gap: simulated over measured, less 1. u: its relative standard uncertainty, all that is "
-         "uncertain "
-         "included; z: of its logarithm. Red: a gap, at a "
-         "false-discovery rate of 5 %. Grey: a gap smaller than about twice its u cannot be told from nothing.</p>\n";
-}
-
-std::string trends_table(const json& trends) {
-  std::string rows;
-  for (const json& t : trends)
-    rows += fmt::format(
-        "<tr><td>{} {}</td><td>{}</td><td class=n>{:+.2f}</td><td class=n>{:.2f}</td><td>{}</td><td "
-        "class=n>{:+.1f}</td><td class=n>{:.2g}</td></tr>\n",
-        t["apparatus"].get<std::string>(), t["observable"].get<std::string>(), t["condition"].get<std::string>(),
-        t["exponent"].get<double>(), t["u"].get<double>(), mostly_from(t, 1, "{:.2f}"), t["z"].get<double>(),
-        t["q_value"].get<double>());
-  if (rows.empty()) return "";
-  return "<p>Measured over simulated goes with the condition to the power</p>\n<table><tr><th>observable</th>"
-         "<th>condition</th><th>exponent</th><th>u</th><th>u mostly from</th><th>z</th><th>q</th></tr>\n" +
-         rows + "</table>\n";
+// The region with the surest gap, or of no sure one that with the largest; null without regions.
+const json* worst_region(const json& where) {
+  const json* worst = nullptr;
+  const auto weight = [](const json& r) {
+    return std::pair(number(r, "q_value") <= kFalseDiscoveries ? std::fabs(number(r, "z")) : 0.0,
+                     std::fabs(number(r, "relative_gap")));
+  };
+  for (const json& r : where)
+    if (!worst || weight(r) > weight(*worst)) worst = &r;
+  return worst;
 }
 
 // "No gap" says as little as the data can show: how large a gap would have been seen, and what hides a smaller one.
 std::string without_a_gap(const json& where) {
   const json* largest = nullptr;
   for (const json& r : where)
-    if (!largest || std::fabs(r["relative_gap"].get<double>()) > std::fabs((*largest)["relative_gap"].get<double>()))
-      largest = &r;
+    if (!largest || std::fabs(number(r, "relative_gap")) > std::fabs(number(*largest, "relative_gap"))) largest = &r;
   if (!largest) return "";
   return fmt::format(
-      "<p>That is no proof that the simulation is right: the largest difference seen ({} {}, {}: {:+.0f} %) has a "
-      "standard uncertainty of {:.0f} %, mostly from {}. A smaller u there is what would show more.</p>\n",
-      (*largest)["apparatus"].get<std::string>(), (*largest)["observable"].get<std::string>(),
-      (*largest)["region"].get<std::string>(), 100 * (*largest)["relative_gap"].get<double>(),
-      100 * (*largest)["u"].get<double>(), mostly_from(*largest, 100, "{:.0f} %"));
+      "That is no proof that the simulation is right: the largest difference seen ({}, {}: {}) has a standard "
+      "uncertainty of {}, mostly from {}. A smaller u there is what would show more.",
+      place(*largest), text(*largest, "region"), percent(number(*largest, "relative_gap"), "{:+.0f} %"),
+      percent(number(*largest, "u")), mostly_from(*largest, 100, "{:.0f} %"));
 }
 
 // Whether there is a gap at all hangs on a threshold that is itself known from so many draws only.
 std::string close_call(const json& odds) {
-  const double best = odds["best_rival"].get<double>(), low = odds["threshold_low95"].get<double>(),
-               high = odds["threshold_high95"].get<double>();
+  const double best = number(odds, "best_rival"), low = number(odds, "threshold_low95"),
+               high = number(odds, "threshold_high95");
   if (best < low || best > high) return "";
   return fmt::format(
-      "<p><b>A close call:</b> the log odds of the best rival over no gap, {:.1f}, lie within the uncertainty of the "
-      "threshold, {:.1f} (95 %: {:.1f} &hellip; {:.1f}).</p>\n",
-      best, odds["threshold"].get<double>(), low, high);
+      "A close call: the log odds of the best rival over no gap, {:.1f}, lie within the uncertainty of the threshold, "
+      "{:.1f} (95 %: {:.1f} … {:.1f}).",
+      best, number(odds, "threshold"), low, high);
 }
 
 // A verdict on single regions and effects can miss what goes through all of them, or be of nothing else.
-std::string trends_found(const json& trends, const char* words) {
-  std::string text;
+std::vector<std::string> trends_found(const json& trends, const char* words) {
+  std::vector<std::string> lines;
   for (const json& t : trends)
-    if (t["q_value"].get<double>() <= 0.05)
-      text += fmt::format(
-          "<p><b>{}:</b> {} {}, measured over simulated, goes with {} to the power {:+.2f} &plusmn; "
-          "{:.2f} (q {:.2g}).</p>\n",
-          words, t["apparatus"].get<std::string>(), t["observable"].get<std::string>(),
-          t["condition"].get<std::string>(), t["exponent"].get<double>(), t["u"].get<double>(),
-          t["q_value"].get<double>());
-  return text;
+    if (number(t, "q_value") <= kFalseDiscoveries)
+      lines.push_back(
+          fmt::format("{}: {}, measured over simulated, goes with {} to the power {:+.2f} ± {:.2f} (q {:.2g}).", words,
+                      place(t), text(t, "condition"), number(t, "exponent"), number(t, "u"), number(t, "q_value")));
+  return lines;
 }
 
-// Where in the machine the simulated torque arises, and where the effects change it.
-std::string percent(double share) {
-  const double whole = std::round(100 * share);
-  return fmt::format("{:.0f} %", whole == 0 ? 0.0 : whole);  // no -0
+std::string strength_words(const json& strength) {
+  const std::string unit = text(strength, "unit");
+  return fmt::format("{:.3g}{} ({:.3g} … {:.3g})", number(strength, "value"), unit == "1" ? "" : " " + unit,
+                     number(strength, "low90"), number(strength, "high90"));
 }
 
-// A row a source, a column a condition; in the cells the shares, and what the effects in question change.
-std::string sources_of_kind(const json& sources, const std::string& kind) {
-  std::vector<std::string> conditions, names;
-  std::map<std::pair<std::string, std::string>, std::string> cells;
-  const auto place = [](std::vector<std::string>& all, const std::string& name) {
-    if (std::find(all.begin(), all.end(), name) == all.end()) all.push_back(name);
-  };
-  for (const json& s : sources) {
-    if (s["kind"] != kind) continue;
-    const std::string condition =
-        fmt::format("{:g} 1/s, l = {:g}", s["speed"].is_null() ? 0.0 : s["speed"].get<double>(),
-                    s["fill"].is_null() ? 0.0 : s["fill"].get<double>());
-    const std::string name = s["source"];
-    place(conditions, condition);
-    place(names, name);
-    std::string cell = percent(s["share"].get<double>());
-    for (const json& e : s["effects"])
-      cell += fmt::format("<br><small>{} at {:.3g}: {:+.0f} &plusmn; {:.0f} %</small>",
-                          escaped(e["name"].get<std::string>()), e["strength"].get<double>(),
-                          100 * e["change"].get<double>(), 100 * e["u"].get<double>());
-    cells[{name, condition}] = cell;
+const json* effect_entry(const json& d, const std::string& name) {
+  for (const json& e : d.at("effects"))
+    if (e.at("name") == name) return &e;
+  return nullptr;
+}
+
+std::vector<std::pair<double, std::string>> causes(const json& d) {
+  std::vector<std::pair<double, std::string>> list;
+  for (const auto& [name, p] : d.at("probabilities").items()) list.emplace_back(p.get<double>(), name);
+  std::sort(list.rbegin(), list.rend());
+  return list;
+}
+
+bool has_strengths(const json& d) { return d.contains("fit_gap"); }
+
+Table ranking(const json& d) {
+  Table table;
+  table.columns = {"cause", "probability"};
+  table.bar_column = 1;
+  const bool more = has_strengths(d);
+  if (more) {
+    table.columns.insert(table.columns.end(), {"strength it would have (90 %)", "gap left with it"});
+    table.caption = fmt::format("The gap of the fit rows is {}, root mean square; {} is left by recalibration alone.",
+                                percent(number(d["fit_gap"], "before")), percent(number(d["fit_gap"], "recalibrated")));
   }
-  if (names.empty()) return "";
-  if (kind == "phase")
-    std::sort(names.begin(), names.end(),
-              [](const std::string& x, const std::string& y) { return std::atof(x.c_str()) < std::atof(y.c_str()); });
-  std::string text = "<table><tr><th>source</th>";
-  for (const std::string& condition : conditions) text += fmt::format("<th class=n>{}</th>", condition);
-  text += "</tr>\n";
-  for (const std::string& name : names) {
-    text += fmt::format("<tr><td>{}</td>", escaped(name));
-    for (const std::string& condition : conditions)
-      text += fmt::format("<td class=n>{}</td>", cells[{name, condition}]);
-    text += "</tr>\n";
+  double other_pairs = 0;
+  for (const auto& [p, name] : causes(d)) {
+    const bool pair = name.find('+') != std::string::npos;
+    if (pair && p < kShownPair) other_pairs += p;
+    if ((pair && p < kShownPair) || table.rows.size() == kShownCauses ||
+        (p < kShownProbability && table.rows.size() >= 3))
+      continue;
+    std::vector<std::string> row = {cause(name), percent(p, "{:.1f} %")};
+    if (more) {
+      const json* e = effect_entry(d, name);
+      const bool told = e && e->contains("strength");
+      row.push_back(told ? strength_words((*e)["strength"]) : kNotRecorded);
+      row.push_back(told ? percent(number(*e, "gap_left")) : kNotRecorded);
+    }
+    table.rows.push_back(row);
+    table.bars.push_back(p);
   }
-  return text + "</table>\n";
-}
-
-std::string sources_table(const json& sources) {
-  std::string text;
-  for (const auto& [kind, words] :
-       {std::pair("part",
-                  "Parts of the simulated rotor torque; drum: what its wall takes back, the rest is the weight "
-                  "of the grain."),
-        std::pair("phase",
-                  "The paddles' torque by the place of a paddle in its turn; 0 deg is the lowest point, from "
-                  "which it rises."),
-        std::pair("loss", "Where the work goes: dashpots (normal, tangential), sliding, rolling, twisting.")}) {
-    if (const std::string table = sources_of_kind(sources, kind); !table.empty())
-      text += fmt::format("<p>{}</p>\n{}", words, table);
-  }
-  return text;
-}
-
-std::string ranking(const json& probabilities) {
-  std::vector<std::pair<double, std::string>> models;
-  for (const auto& [name, p] : probabilities.items()) models.emplace_back(p.get<double>(), name);
-  std::sort(models.rbegin(), models.rend());
-  std::string rows;
-  for (std::size_t i = 0; i < models.size() && i < 8; ++i)
-    rows += fmt::format("<tr><td>{}</td><td>{}</td><td class=n>{:.1f} %</td></tr>\n",
-                        models[i].second == "no_gap" ? "no gap" : escaped(models[i].second),
-                        bar(models[i].first, "#2c6fbb"), 100 * models[i].first);
-  return "<table>" + rows + "</table>\n";
+  table.rows.push_back({"any other two together", percent(other_pairs, "{:.1f} %")});
+  table.rows.back().resize(table.columns.size(), kNotRecorded);
+  table.bars.push_back(other_pairs);
+  return table;
 }
 
 // Of an ambiguous group: how strong each would have to be.
-std::string strengths_table(const json& strengths) {
-  std::string rows;
-  for (const auto& [name, s] : strengths.items()) {
-    const std::string unit = s["unit"];
-    rows += fmt::format("<tr><td>{}</td><td class=n>{:.3g}{}</td><td class=n>{:.3g} &hellip; {:.3g}</td></tr>\n",
-                        escaped(name), s["value"].get<double>(), unit == "1" ? "" : " " + unit,
-                        s["low90"].get<double>(), s["high90"].get<double>());
-  }
-  return "<p>If it is the one, its strength is</p>\n<table><tr><th>effect</th><th class=n>strength</th><th class=n>90 "
-         "%</th></tr>\n" +
-         rows + "</table>\n";
+Table strengths_table(const json& d) {
+  Table table{"If it is the one, its strength is", {"effect", "strength (90 %)"}, {}};
+  for (const json& name : d.at("group"))
+    table.rows.push_back({cause(name), strength_words(d.at("strength").at(name.get<std::string>()))});
+  return table;
 }
 
-std::string before_and_after(const json& shrink, const std::string& how, bool effect_known) {
-  const double full = std::max({shrink["before"].get<double>(), shrink["recalibrated"].get<double>(),
-                                shrink["after"].get<double>(), shrink["placebo"].get<double>(), 1e-9});
-  std::string rows;
+Table regions_table(const json& where) {
+  Table table{
+      "Gap: simulated over measured, less 1. u: its relative standard uncertainty, of all that is uncertain; z: of "
+      "its logarithm. q: the rate of false discoveries at which it counts as found.",
+      {"observable", "region", "gap, %", "u, %", "u mostly from", "z", "q", "found"},
+      {}};
+  for (const json& r : where)
+    table.rows.push_back({place(r), text(r, "region"), fmt::format("{:+.1f}", 100 * number(r, "relative_gap")),
+                          fmt::format("{:.1f}", 100 * number(r, "u")), mostly_from(r, 100, "{:.0f} %"),
+                          fmt::format("{:+.1f}", number(r, "z")), fmt::format("{:.2g}", number(r, "q_value")),
+                          number(r, "q_value") <= kFalseDiscoveries ? "yes" : "no"});
+  return table;
+}
+
+Table trends_table(const json& trends) {
+  Table table{"Measured over simulated goes with the condition to the power",
+              {"observable", "condition", "exponent", "u", "u mostly from", "z", "q"},
+              {}};
+  for (const json& t : trends)
+    table.rows.push_back({place(t), text(t, "condition"), fmt::format("{:+.2f}", number(t, "exponent")),
+                          fmt::format("{:.2f}", number(t, "u")), mostly_from(t, 1, "{:.2f}"),
+                          fmt::format("{:+.1f}", number(t, "z")), fmt::format("{:.2g}", number(t, "q_value"))});
+  return table;
+}
+
+std::string regions_found(const json& where) {
+  std::vector<std::string> found;
+  for (const json& r : where)
+    if (number(r, "q_value") <= kFalseDiscoveries)
+      found.push_back(fmt::format("{}, {}: {} ± {}", place(r), text(r, "region"),
+                                  percent(number(r, "relative_gap"), "{:+.0f} %"), percent(number(r, "u"))));
+  if (found.empty())
+    return "No region by itself is off by more than its uncertainty, at a false-discovery rate of 5 %.";
+  return fmt::format("Found at a false-discovery rate of 5 %, with standard uncertainty: {}.", fmt::join(found, "; "));
+}
+
+// A row a source, a column a condition; in the cells the shares, and what the effects in question change.
+Table sources_table(const json& sources, const std::string& kind, const char* words) {
+  std::vector<std::string> conditions, names;
+  std::map<std::pair<std::string, std::string>, std::string> cells;
+  const auto add = [](std::vector<std::string>& all, const std::string& name) {
+    if (std::find(all.begin(), all.end(), name) == all.end()) all.push_back(name);
+  };
+  const auto condition = [](const json& s, const char* key) { return s.at(key).is_null() ? 0.0 : number(s, key); };
+  for (const json& s : sources) {
+    if (s.at("kind") != kind) continue;
+    const std::string at = fmt::format("{:g} 1/s, l = {:g}", condition(s, "speed"), condition(s, "fill"));
+    add(conditions, at);
+    add(names, text(s, "source"));
+    std::string cell = percent(number(s, "share"));
+    for (const json& e : s.at("effects"))
+      cell += fmt::format("; {} at {:.3g}: {} ± {}", cause(text(e, "name")), number(e, "strength"),
+                          percent(number(e, "change"), "{:+.0f} %"), percent(number(e, "u")));
+    cells[{text(s, "source"), at}] = cell;
+  }
+  if (kind == "phase")
+    std::sort(names.begin(), names.end(),
+              [](const std::string& x, const std::string& y) { return std::atof(x.c_str()) < std::atof(y.c_str()); });
+  Table table{words, {"source"}, {}};
+  table.columns.insert(table.columns.end(), conditions.begin(), conditions.end());
+  for (const std::string& name : names) {
+    table.rows.push_back({name});
+    for (const std::string& at : conditions) table.rows.back().push_back(cells[{name, at}]);
+  }
+  return table;
+}
+
+void add_sources(const json& sources, Page& page) {
+  Section section{"Where in the machine the simulated torque arises", {}, true};
+  for (const auto& [kind, words] :
+       {std::pair("part",
+                  "Parts of the rotor's torque; drum: what its wall takes back, the rest is the weight of the "
+                  "grain."),
+        std::pair("phase",
+                  "The paddles' torque by the place of a paddle in its turn; 0 deg is the lowest point, from "
+                  "which it rises."),
+        std::pair("loss", "Where the work goes: dashpots (normal, tangential), sliding, rolling, twisting.")})
+    if (Table table = sources_table(sources, kind, words); !table.rows.empty()) section.blocks.push_back(table);
+  if (!section.blocks.empty()) page.sections.push_back(std::move(section));
+}
+
+void add_shrink(const json& shrink, const std::string& how, bool effect_known, Section& section) {
+  const int tests = shrink.at("tests").get<int>();
+  const json& closed = shrink.at("closed");
+  section.blocks.push_back(Paragraph{fmt::format(
+      "Root-mean-square gap on {} check tests, {}, measurement noise taken out. Closed: {} (90 %: "
+      "{} to {}, from the noise of measurement and simulation{}).",
+      tests, how, percent(number(closed, "value")), percent(number(closed, "low90")), percent(number(closed, "high90")),
+      tests < 5 ? "; so few tests say nothing about others" : " and from which tests there are")});
+  Table table{"", {"simulation", "gap"}, {}};
+  table.bar_column = 1;
+  double full = 1e-9;
   // without an effect outside the group there is no placebo to show
   const std::string placebo = shrink.value("placebo_effect", std::string());
-  for (const auto& [key, name] : {std::pair<const char*, std::string>{"before", "baseline"},
+  for (const auto& [key, name] : {std::pair<const char*, std::string>{"before", "as calibrated"},
                                   {"recalibrated", "recalibrated only"},
                                   {"after", "with the effect"},
-                                  {"placebo", "placebo (" + placebo + ")"}}) {
+                                  {"placebo", "with a wrong effect: " + cause(placebo)}}) {
     if (key == std::string("placebo") && placebo.empty()) continue;
     if (key == std::string("after") && !effect_known) continue;  // an unknown effect cannot be added
-    rows += fmt::format("<tr><td>{}</td><td>{}</td><td class=n>{:.1f} %</td></tr>\n", escaped(name),
-                        bar(shrink[key].get<double>() / full, "#27866a"), 100 * shrink[key].get<double>());
+    table.rows.push_back({name, percent(number(shrink, key), "{:.1f} %")});
+    table.bars.push_back(number(shrink, key));
+    full = std::max(full, number(shrink, key));
   }
-  return fmt::format(
-      "<p>Root-mean-square gap on {} check tests, {}, measurement noise taken out. Closed: {:.0f} % (90 %: {:.0f} to "
-      "{:.0f} %, from the noise of measurement and simulation{}).</p>\n<table>{}</table>\n",
-      shrink["tests"].get<int>(), how, 100 * shrink["closed"]["value"].get<double>(),
-      100 * shrink["closed"]["low90"].get<double>(), 100 * shrink["closed"]["high90"].get<double>(),
-      shrink["tests"].get<int>() < 5 ? "; so few tests say nothing about others" : " and from which tests there are",
-      rows);
+  for (double& bar : table.bars) bar /= full;
+  section.blocks.push_back(table);
+}
+
+std::string next_test_words(const json& t) {
+  return fmt::format("{} ({:g} h): {}. It separates {}: from {:.1f} to {:.1f} standard deviations.",
+                     cause(text(t, "name")), number(t, "hours"), text(t, "how"), cause(text(t, "separates")),
+                     number(t, "separation_now"), number(t, "separation"));
+}
+
+// The numbers that a manager looks for first.
+void add_figures(const json& d, Page& page) {
+  const std::string verdict = text(d, "verdict");
+  const std::map<std::string, const char*> words = {{"no_gap", "No gap"},
+                                                    {"named", "Cause named"},
+                                                    {"ambiguous", "Cause not settled"},
+                                                    {"unknown", "Cause not in the library"}};
+  const auto rows = d.value("rows", json::object());
+  page.figures.push_back(
+      {"Verdict", words.count(verdict) ? words.at(verdict) : verdict,
+       fmt::format("{} rows to attribute, {} held out", rows.value("fit", 0), rows.value("check", 0))});
+  if (const json* r = worst_region(d.at("where")))
+    page.figures.push_back(
+        {number(*r, "q_value") <= kFalseDiscoveries ? "Surest gap" : "Largest difference",
+         fmt::format("{} ± {}", percent(number(*r, "relative_gap"), "{:+.0f} %"), percent(number(*r, "u"))),
+         place(*r) + ", " + text(*r, "region")});
+  for (const auto& [p, name] : causes(d)) {
+    if (name == "no_gap" && verdict != "no_gap") continue;
+    page.figures.push_back({verdict == "no_gap" ? "Probability of no gap" : "Likeliest cause",
+                            verdict == "no_gap" ? percent(number(d["probabilities"], "no_gap")) : cause(name),
+                            verdict == "no_gap" ? "" : percent(p)});
+    break;
+  }
+  page.figures.push_back(
+      {"Recalibration could absorb", percent(number(d, "absorbable_by_recalibration")), "of the gap"});
+  const char* key = d.at("shrink").is_null() ? "shrink_predicted" : "shrink";
+  if (const json s = d.value(key, json()); !s.is_null() && verdict != "unknown")
+    page.figures.push_back({"Gap on held-out tests",
+                            fmt::format("{} → {}", percent(number(s, "before")), percent(number(s, "after"))),
+                            key == std::string("shrink") ? "simulated again with the effect" : "predicted, no proof"});
+  if (!d.at("next_test").is_null())
+    page.figures.push_back(
+        {"Next test", cause(text(d["next_test"], "name")), fmt::format("{:g} h", number(d["next_test"], "hours"))});
+}
+
+void add_summary(const json& d, Page& page) {
+  const bool none = d.at("verdict") == "no_gap";
+  const double absorbable = number(d, "absorbable_by_recalibration");
+  page.summary.push_back(
+      {none ? fmt::format("{} of the difference that is seen lies within what recalibration could take up.",
+                          percent(absorbable))
+            : fmt::format("{} of the gap could be absorbed by recalibration, {} needs something new.",
+                          percent(absorbable), percent(1 - absorbable))});
+  if (const std::string close = close_call(d.at("log_odds")); !close.empty())
+    page.summary.push_back({close, Paragraph::Tone::warning});
+  const json trends = d.value("trends", json::array());
+  if (none || d.at("verdict") == "unknown")
+    for (const std::string& line : trends_found(trends, none ? "But a trend is off" : "What is off is a trend"))
+      page.summary.push_back({line, Paragraph::Tone::warning});
+  if (none)
+    if (const std::string line = without_a_gap(d.at("where")); !line.empty()) page.summary.push_back({line});
+}
+
+// The effects that the points after are simulated with: the named ones, or the likeliest of a group.
+std::string with_effect(const json& d) {
+  std::string words;
+  for (const json& name : d.at("named")) words += (words.empty() ? "with " : " and ") + cause(name);
+  if (words.empty() && !d.at("group").empty()) words = "with " + cause(d["group"][0]);
+  return words;
+}
+
+void add_plots(const json& d, const std::string& name, Page& page) {
+  Section compared{"Measured against simulated", {}};
+  if (!d.contains("points")) {
+    compared.blocks.push_back(Paragraph{
+        "This diagnosis.json has no points: `vielto gap diagnose` on its table writes them, and the plots with them."});
+    page.sections.push_back(std::move(compared));
+    return;
+  }
+  compared.blocks.push_back(
+      Paragraph{"Grey: measured, with 95 % intervals. Red: simulated as calibrated. Green: simulated with the effect "
+                "in question, "
+                "where one is. Bands and bars of the simulation: 95 %, of all that is uncertain about it."});
+  const auto plots = comparison_plots(d["points"], name, with_effect(d));
+  std::vector<Section> more;
+  for (std::size_t i = 0; i < plots.size(); ++i) {
+    Section folded{"Measured against simulated over " + cause(plots[i].over), {}, true};
+    const bool first = i == 0 || plots[i].over.empty();
+    for (const Plot& plot : plots[i].plots) (first ? compared : folded).blocks.push_back(plot);
+    if (!first) more.push_back(std::move(folded));
+  }
+  page.sections.push_back(std::move(compared));
+  for (Section& section : more) page.sections.push_back(std::move(section));
+}
+
+void add_details(const json& d, Page& page) {
+  Section regions{"Every region and trend", {regions_table(d.at("where"))}, true};
+  if (const json trends = d.value("trends", json::array()); !trends.empty())
+    regions.blocks.push_back(trends_table(trends));
+  page.sections.push_back(std::move(regions));
+  if (const json sources = d.value("sources", json::array()); !sources.empty()) add_sources(sources, page);
+
+  Section firm{"How firm the verdict is", {}, true};
+  Table table{"What would be said with other assumptions", {"if", "verdict", "best rival", "its share"}, {}};
+  for (const json& s : d.value("sensitivity", json::array()))
+    table.rows.push_back(
+        {text(s, "change"), cause(text(s, "verdict")), cause(text(s, "top")), percent(number(s, "probability"))});
+  firm.blocks.push_back(table);
+  const json& odds = d.at("log_odds");
+  firm.blocks.push_back(
+      Paragraph{fmt::format("Log odds of the best rival against no gap {:.1f}, threshold {:.1f} from {} "
+                            "draws.",
+                            number(odds, "best_rival"), number(odds, "threshold"), odds.at("draws").get<int>())});
+  Table all{"The most probable causes", {"cause", "probability, %"}, {}};
+  for (const auto& [p, name] : causes(d))
+    if (all.rows.size() < kListedCauses) all.rows.push_back({cause(name), fmt::format("{:.2f}", 100 * p)});
+  firm.blocks.push_back(all);
+  page.sections.push_back(std::move(firm));
+
+  Section provenance{"Where the diagnosis comes from", {}, true};
+  provenance.blocks.push_back(json_table(d.value("provenance", json::object())));
+  page.sections.push_back(std::move(provenance));
+}
+
+void add_sections(const json& d, const std::string& name, Page& page) {
+  const std::string verdict = text(d, "verdict");
+  if (d.contains("reference") && !d["reference"].is_null())
+    page.sections.push_back(
+        {"The reference state",
+         {Paragraph{"The question is what has changed since this state, in which the model was validated."},
+          json_table(d["reference"])}});
+  add_plots(d, name, page);
+
+  Section map{"Map of the gap", {Paragraph{regions_found(d.at("where"))}}};
+  if (auto maps = d.contains("points") ? gap_maps(d["points"], name, with_effect(d)) : std::vector<Plot>();
+      !maps.empty()) {
+    map.blocks.push_back(
+        Paragraph{"Simulated over measured, less 1. Red: the simulation shows too much. Blue: too little."});
+    for (Plot& plot : maps) map.blocks.push_back(std::move(plot));
+  }
+  page.sections.push_back(std::move(map));
+
+  Section which{"Which cause", {ranking(d)}};
+  if (verdict == "ambiguous" && !has_strengths(d)) which.blocks.push_back(strengths_table(d));
+  page.sections.push_back(std::move(which));
+
+  Section far{"How far the gap closes", {}};
+  if (!d.at("shrink").is_null()) add_shrink(d["shrink"], "simulated again", verdict != "unknown", far);
+  if (const json s = d.value("shrink_predicted", json()); !s.is_null())
+    add_shrink(s, "predicted by the emulator, no proof", true, far);
+  if (far.blocks.empty())
+    far.blocks.push_back(Paragraph{"Not asked: no effect was named, or there are no check tests."});
+  page.sections.push_back(std::move(far));
+
+  Section next{"Next test", {}};
+  if (!d.at("next_test").is_null())
+    next.blocks.push_back(Paragraph{next_test_words(d["next_test"])});
+  else
+    next.blocks.push_back(Paragraph{verdict == "no_gap" ? "None: there is no proven gap whose cause a test could tell."
+                                                        : "None is needed to tell effects apart."});
+  page.sections.push_back(std::move(next));
+  if (const json notes = d.value("notes", json::array()); !notes.empty()) {
+    Section section{"Notes", {}, true};
+    for (const json& note : notes) section.blocks.push_back(Paragraph{note.get<std::string>()});
+    page.sections.push_back(std::move(section));
+  }
+  add_details(d, page);
 }
 
 }  // namespace
 
-std::string diagnosis_page(const json& d, const std::string& title) {
-  std::string page = fmt::format(
-      "<!DOCTYPE html>\n<html lang=\"en\"><head><meta "
-      "charset=\"utf-8\"><title>{0}</title>\n<style>body{{font-family:sans-serif;"
-      "max-width:52em;margin:2em auto;padding:0 1em}}table{{border-collapse:collapse}}td,th{{padding:.15em "
-      ".7em;text-align:left}}"
-      ".n{{text-align:right;white-space:nowrap;font-variant-numeric:tabular-nums}}.verdict{{font-size:1.3em;border-"
-      "left:.3em solid "
-      "#2c6fbb;"
-      "padding-left:.7em}}</style></head><body>\n<h1>{0}</h1>\n<p class=\"verdict\">{1}</p>\n",
-      escaped(title), escaped(d["sentence"].get<std::string>()));
-  const double absorbable = 100 * d["absorbable_by_recalibration"].get<double>();
-  page += d["verdict"] == "no_gap"
-              ? fmt::format(
-                    "<p>{:.0f} % of the difference that is seen lies within what recalibration could take up.</p>\n",
-                    absorbable)
-              : fmt::format(
-                    "<p>{:.0f} % of the gap could be absorbed by recalibration, {:.0f} % needs something new.</p>\n",
-                    absorbable, 100 - absorbable);
-  page += close_call(d["log_odds"]);
-  if (d["verdict"] == "no_gap") page += trends_found(d["trends"], "But a trend is off") + without_a_gap(d["where"]);
-  if (d["verdict"] == "unknown") page += trends_found(d["trends"], "What is off is a trend");
-  page += "<h2>Where</h2>\n" + map_of_the_gap(d["where"]) + trends_table(d["trends"]);
-  page += "<h2>Which effect</h2>\n" + ranking(d["probabilities"]);
-  if (d["verdict"] == "ambiguous") page += strengths_table(d["strength"]);
-  page += "<h2>How far the gap closes</h2>\n";
-  if (!d["shrink"].is_null()) page += before_and_after(d["shrink"], "simulated again", d["verdict"] != "unknown");
-  if (!d["shrink_predicted"].is_null())
-    page += before_and_after(d["shrink_predicted"], "predicted by the emulator, no proof", true);
-  if (d["shrink"].is_null() && d["shrink_predicted"].is_null())
-    page += "<p>Not asked: no effect was named, or there are no check tests.</p>\n";
-  page += "<h2>Next test</h2>\n";
-  if (d["next_test"].is_null())
-    page += d["verdict"] == "no_gap" ? "<p>None: there is no proven gap whose cause a test could tell.</p>\n"
-                                     : "<p>None is needed to tell effects apart.</p>\n";
-  else
-    page += fmt::format(
-        "<p><b>{}</b> ({}): separates {}; from {:.1f} to {:.1f} standard deviations in {:g} h.</p>\n",
-        escaped(d["next_test"]["name"].get<std::string>()), escaped(d["next_test"]["how"].get<std::string>()),
-        escaped(d["next_test"]["separates"].get<std::string>()), d["next_test"]["separation_now"].get<double>(),
-        d["next_test"]["separation"].get<double>(), d["next_test"]["hours"].get<double>());
-  if (d.contains("sources") && !d["sources"].empty())
-    page += "<h2>Where in the machine</h2>\n" + sources_table(d["sources"]);
-  page += "<h2>How firm</h2>\n<table><tr><th>if</th><th>verdict</th><th>best rival</th><th>its share</th></tr>\n";
-  for (const json& s : d["sensitivity"])
-    page += fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td><td class=n>{:.0f} %</td></tr>\n",
-                        escaped(s["change"].get<std::string>()), s["verdict"].get<std::string>(),
-                        escaped(s["top"].get<std::string>()), 100 * s["probability"].get<double>());
-  page += fmt::format(
-      "</table>\n<p>Log odds of the best rival against no gap {:.1f}, threshold {:.1f} from {} draws.</p>\n",
-      d["log_odds"]["best_rival"].get<double>(), d["log_odds"]["threshold"].get<double>(),
-      d["log_odds"]["draws"].get<int>());
-  for (const json& note : d["notes"]) page += "<p>Note: " + escaped(note.get<std::string>()) + "</p>\n";
-  return page + "</body></html>\n";
+bool is_diagnosis(const json& j) {
+  return j.is_object() && j.contains("verdict") && j.contains("probabilities") && j.contains("sentence");
+}
+
+void add_diagnosis(const json& d, const std::string& path, const std::string& name, Page& page) {
+  try {
+    page.sentence = text(d, "sentence");
+    std::replace(page.sentence.begin(), page.sentence.end(), '_', ' ');
+    add_figures(d, page);
+    add_summary(d, page);
+    add_sections(d, name, page);
+  } catch (const json::exception& error) {
+    throw BadInput(path, 0, fmt::format("is no diagnosis ({})", error.what()),
+                   "make it again with vielto gap diagnose");
+  }
+}
+
+std::string diagnosis_page(const nlohmann::ordered_json& diagnosis, const std::string& title) {
+  Page page;
+  page.title = title;
+  page.files_beside = false;
+  add_diagnosis(json(diagnosis), "diagnosis.json", "", page);
+  return page_html(page, std::filesystem::exists(web_file("echarts.min.js")));
 }
 
 }  // namespace vielto::gap

@@ -14,13 +14,14 @@
 #include "core/statistics.h"
 #include "report/data_file.h"
 #include "report/equation_pages.h"
+#include "report/json_table.h"
 
 namespace vielto {
 namespace {
 
 using nlohmann::json;
 
-constexpr std::size_t kMostJsonRows = 300, kMostPlots = 8, kMostSeries = 8, kMostPowerRows = 2000;
+constexpr std::size_t kMostPlots = 8, kMostSeries = 8, kMostPowerRows = 2000;
 
 std::string file_name(std::string text) {
   for (char& c : text)
@@ -90,27 +91,6 @@ std::vector<Plot> column_plots(const DataFile& file, const std::string& name) {
   return plots;
 }
 
-void flatten(const json& value, const std::string& key, Table& table) {
-  if (table.rows.size() == kMostJsonRows) return;
-  const auto plain = [](const json& v) {
-    return v.is_string()         ? v.get<std::string>()
-           : v.is_number_float() ? fmt::format("{:.6g}", v.get<double>())
-                                 : v.dump();
-  };
-  if (value.is_object()) {
-    for (const auto& [name, inner] : value.items()) flatten(inner, key.empty() ? name : key + "." + name, table);
-  } else if (value.is_array() &&
-             std::any_of(value.begin(), value.end(), [](const json& v) { return v.is_structured(); })) {
-    for (std::size_t i = 0; i < value.size(); ++i) flatten(value[i], fmt::format("{}[{}]", key, i), table);
-  } else if (value.is_array()) {
-    std::string text;
-    for (const json& v : value) text += (text.empty() ? "" : ", ") + plain(v);
-    table.rows.push_back({key, text});
-  } else {
-    table.rows.push_back({key, plain(value)});
-  }
-}
-
 std::vector<Plot> power_plots(const std::string& path, const std::string& name) {
   std::map<double, Series> by_fill;
   for (const Observation& row : read_reduced_table(path).rows) {
@@ -158,14 +138,11 @@ void add_csv(const std::string& path, const std::string& name, bool plot_powers,
 }
 
 void add_json(const std::string& path, const std::string& name, Page& page) {
-  Table table{"", {"key", "value"}, {}};
   try {
-    flatten(json::parse(std::ifstream(path)), "", table);
+    page.sections.push_back({name, {json_table(json::parse(std::ifstream(path)))}});
   } catch (const json::exception& error) {
     throw BadInput(path, 0, fmt::format("is no JSON ({})", error.what()), "make the file again");
   }
-  if (table.rows.size() == kMostJsonRows) table.caption = fmt::format("The first {} values", kMostJsonRows);
-  page.sections.push_back({name, {table}});
 }
 
 }  // namespace vielto

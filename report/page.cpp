@@ -81,9 +81,14 @@ std::string html(const Table& table) {
   for (std::size_t c = 0; c < table.columns.size(); ++c)
     text += fmt::format("<th scope=\"col\"{}>{}</th>", looks[c], escaped(table.columns[c]));
   text += "</tr></thead>\n<tbody>\n";
-  for (const auto& row : table.rows) {
+  for (std::size_t r = 0; r < table.rows.size(); ++r) {
     text += "<tr>";
-    for (std::size_t c = 0; c < row.size(); ++c) text += fmt::format("<td{}>{}</td>", looks[c], escaped(row[c]));
+    for (std::size_t c = 0; c < table.rows[r].size(); ++c) {
+      const std::string look = static_cast<int>(c) == table.bar_column
+                                   ? fmt::format(" class=\"bar\" style=\"--part: {:.3f}\"", table.bars.at(r))
+                                   : looks[c];
+      text += fmt::format("<td{}>{}</td>", look, escaped(table.rows[r][c]));
+    }
     text += "</tr>\n";
   }
   return text + "</tbody></table></div>\n";
@@ -95,11 +100,16 @@ std::string html(const Picture& picture) {
       escaped(picture.caption), base64(bytes_of(picture.png, "draw the picture again")));
 }
 
-std::string html(const Plot& plot) {
+std::string html(const Plot& plot, bool files_beside) {
+  const std::string height =
+      plot.rows.empty() ? "" : fmt::format(" style=\"height: {}px\"", 150 + 52 * plot.rows.size());
+  const std::string files =
+      files_beside ? fmt::format(" <span class=\"files\">Beside this page: {0}.svg, {0}.csv</span>", escaped(plot.file))
+                   : "";
   return fmt::format(
-      "<figure class=\"plot\"><h3>{}</h3><div class=\"chart\" data-plot=\"{}\"></div>"
-      "<figcaption>{} <span class=\"files\">Beside this page: {}.svg, {}.csv</span></figcaption></figure>\n",
-      escaped(plot.title), escaped(plot.file), escaped(plot.caption), escaped(plot.file), escaped(plot.file));
+      "<figure class=\"plot{}\"><h3>{}</h3><div class=\"chart\" data-plot=\"{}\"{}></div>"
+      "<figcaption>{}{}</figcaption></figure>\n",
+      plot.half ? " half" : "", escaped(plot.title), escaped(plot.file), height, escaped(plot.caption), files);
 }
 
 }  // namespace
@@ -137,6 +147,7 @@ std::string page_html(const Page& page, bool with_plots) {
       "<link rel=\"icon\" href=\"data:,\">\n<title>{0}</title>\n<style>\n{2}</style>\n</head>\n<body>\n<main>\n"
       "<header><h1>{0}</h1><p>{1}</p></header>\n",
       escaped(page.title), escaped(page.subtitle), web("page.css"));
+  if (!page.sentence.empty()) text += fmt::format("<p class=\"verdict\">{}</p>\n", escaped(page.sentence));
   text += "<section id=\"summary\">\n<h2>Summary</h2>\n<div class=\"figures\">\n";
   for (const KeyFigure& f : page.figures)
     text += fmt::format("<div class=\"key{}\"><span>{}</span><strong>{}</strong><span>{}</span></div>\n",
@@ -144,9 +155,11 @@ std::string page_html(const Page& page, bool with_plots) {
   text += "</div>\n";
   for (const Paragraph& p : page.summary) text += html(p);
   if (!with_plots)
-    text +=
-        html(Paragraph{"The plots were left out of this report (--no-plots); their data are the CSV files beside it.",
-                       Paragraph::Tone::plain});
+    text += html(
+        Paragraph{page.files_beside
+                      ? "The plots were left out of this report (--no-plots); their data are the CSV files beside it."
+                      : "The plots are left out: the plotting library is not installed (scripts/get-echarts).",
+                  Paragraph::Tone::plain});
   text += "</section>\n";
   for (const Section& section : page.sections) {
     const std::string title = fmt::format("<h2>{}</h2>", escaped(section.title));
@@ -154,7 +167,10 @@ std::string page_html(const Page& page, bool with_plots) {
     for (const auto& block : section.blocks)
       std::visit(
           [&](const auto& b) {
-            if (with_plots || !std::is_same_v<std::decay_t<decltype(b)>, Plot>) text += html(b);
+            if constexpr (!std::is_same_v<std::decay_t<decltype(b)>, Plot>)
+              text += html(b);
+            else if (with_plots)
+              text += html(b, page.files_beside);
           },
           block);
     text += section.folded ? "</details></section>\n" : "</section>\n";
@@ -162,8 +178,9 @@ std::string page_html(const Page& page, bool with_plots) {
   text += "</main>\n";
   if (with_plots && !page.plots().empty())
     text += fmt::format(
-        "<script type=\"application/json\" id=\"plots\">{}</script>\n<script>\n{}\n</script>\n<script>\n{}</script>\n",
-        in_script(plots_json(page)), web("echarts.min.js"), web("page.js"));
+        "<script type=\"application/json\" "
+        "id=\"plots\">{}</script>\n<script>\n{}\n</script>\n<script>\n{}{}</script>\n",
+        in_script(plots_json(page)), web("echarts.min.js"), web("shared.js"), web("page.js"));
   return text + "</body>\n</html>\n";
 }
 

@@ -19,6 +19,8 @@ struct Table {
   std::string caption;
   std::vector<std::string> columns;
   std::vector<std::vector<std::string>> rows;  // as many cells as columns; a column of numbers is set right
+  int bar_column = -1;                         // has a bar behind its words
+  std::vector<double> bars = {};               // of each row, a part of the cell's width, 0 to 1
 };
 constexpr const char* kNotRecorded = "–";
 
@@ -40,9 +42,11 @@ struct KeyFigure {
 
 struct Page {
   std::string title, subtitle;
+  std::string sentence;  // the answer in one sentence, above all else; may be empty
   std::vector<KeyFigure> figures;
   std::vector<Paragraph> summary;
   std::vector<Section> sections;
+  bool files_beside = true;  // every plot as SVG and CSV too
 
   std::vector<const Plot*> plots() const;
 };

@@ -4,7 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "core/csv.h"
 
@@ -38,14 +40,14 @@ json series_option(const Series& s) {
   return option;
 }
 
-// Vertical strokes with gaps between them; in the legend they go with their points.
-json error_bars(const Series& s) {
+// Strokes with gaps between them, upright or (`level`) in x; in the legend they go with their points.
+json error_bars(const Series& s, bool level) {
   json strokes = json::array();
   for (std::size_t i = 0; i < s.xy.size(); ++i) {
     const auto [x, y] = s.xy[i];
-    strokes.push_back({x, y - s.u[i]});
-    strokes.push_back({x, y + s.u[i]});
-    strokes.push_back({x, "-"});
+    const std::array<double, 2> ends = s.u.empty() ? s.range[i] : std::array<double, 2>{y - s.u[i], y + s.u[i]};
+    for (const double end : ends) strokes.push_back(level ? json{end, y} : json{x, end});
+    strokes.push_back(level ? json{"-", y} : json{x, "-"});
   }
   Series bars = s;
   bars.look = Series::Look::line;
@@ -55,6 +57,56 @@ json error_bars(const Series& s) {
   option["silent"] = true;
   option["tooltip"] = {{"show", false}};
   return option;
+}
+
+// The area between low and high, by its corners; shared.js draws it.
+json band_about_line(const Series& s) {
+  json option = series_option(s);
+  option["type"] = "custom";
+  option["data"] = json::array();
+  for (std::size_t i = 0; i < s.xy.size(); ++i) option["data"].push_back({s.xy[i][0], s.range[i][0]});
+  for (std::size_t i = s.xy.size(); i-- > 0;) option["data"].push_back({s.xy[i][0], s.range[i][1]});
+  option["itemStyle"]["opacity"] = 0.22;
+  option["silent"] = true;
+  option["tooltip"] = {{"show", false}};
+  return option;
+}
+
+// Columns and rows of a map: its values in order.
+std::vector<double> places(const std::vector<Cell>& cells, double Cell::*member) {
+  std::set<double> values;
+  for (const Cell& cell : cells) values.insert(cell.*member);
+  return {values.begin(), values.end()};
+}
+
+json map_option(const Plot& plot) {
+  const auto columns = places(plot.cells, &Cell::x), rows = places(plot.cells, &Cell::y);
+  const auto words = [](const std::vector<double>& values) {
+    json list = json::array();
+    for (const double value : values) list.push_back(fmt::format("{:g}", value));
+    return list;
+  };
+  const auto at = [](const std::vector<double>& values, double value) {
+    return std::lower_bound(values.begin(), values.end(), value) - values.begin();
+  };
+  json data = json::array();
+  for (const Cell& cell : plot.cells)
+    data.push_back({{"value", {at(columns, cell.x), at(rows, cell.y), cell.value}},
+                    {"label", {{"show", true}, {"formatter", cell.words}, {"color", "#111111"}}}});
+  return {{"xAxis", {{"type", "category"}, {"data", words(columns)}}},
+          {"yAxis", {{"type", "category"}, {"data", words(rows)}}},
+          {"visualMap",
+           {{"type", "continuous"},
+            {"min", -plot.full},
+            {"max", plot.full},
+            {"show", false},
+            {"inRange", {{"color", {kPalette[0], "#f3f3f3", kPalette[1]}}}}}},
+          {"legend", {{"show", false}, {"top", 0}}},
+          {"series",
+           {{{"type", "heatmap"},
+             {"data", data},
+             {"animation", false},
+             {"itemStyle", {{"borderColor", "#888888"}, {"borderWidth", 1}}}}}}};
 }
 
 // A shaded rectangle belongs to a series; this one is invisible and makes sure that a band in y is on the plot.
@@ -76,6 +128,7 @@ json band_series(const Band& band, const char* axis, const json& ends) {
 
 std::string field(std::string text) {
   std::replace(text.begin(), text.end(), ',', ';');
+  std::replace(text.begin(), text.end(), '\n', ' ');
   return text;
 }
 
@@ -97,6 +150,12 @@ json plot_option(const Plot& plot) {
       {"xAxis", axis(plot.from_zero)},
       {"yAxis", axis(plot.from_zero)},
       {"series", json::array()}};
+  if (!plot.cells.empty()) option.update(map_option(plot));
+  if (!plot.rows.empty())
+    option["yAxis"] = {{"type", "value"},    {"min", -1},       {"max", plot.rows.size()},
+                       {"interval", 1},      {"inverse", true}, {"splitLine", {{"show", false}}},
+                       {"labels", plot.rows}};  // page.js and svg.js write them at 0, 1, 2 ...
+  if (!plot.rows.empty()) option["xAxis"]["axisLine"] = {{"onZero", false}};
   option["xAxis"]["name"] = plot.x_name;
   option["xAxis"]["nameLocation"] = "middle";
   option["xAxis"]["nameGap"] = 30;
@@ -105,7 +164,10 @@ json plot_option(const Plot& plot) {
                                       {{"type", "slider"}, {"filterMode", "none"}, {"bottom", 8}, {"height", 18}}});
   for (const Series& s : plot.series) {
     option["series"].push_back(series_option(s));
-    if (!s.u.empty()) option["series"].push_back(error_bars(s));
+    if (!s.u.empty() || (!s.range.empty() && s.look == Series::Look::points))
+      option["series"].push_back(error_bars(s, !plot.rows.empty()));
+    else if (!s.range.empty())
+      option["series"].push_back(band_about_line(s));
   }
   if (plot.x_band) option["series"].push_back(band_series(*plot.x_band, "xAxis", json::array()));
   if (plot.y_band && !plot.series.empty() && !plot.series.front().xy.empty()) {
@@ -116,11 +178,29 @@ json plot_option(const Plot& plot) {
 }
 
 std::string plot_csv(const Plot& plot) {
-  std::string text = fmt::format("series,{},{},u\n", field(plot.x_name), field(plot.y_name));
+  const std::string axes = field(plot.x_name) + "," + field(plot.y_name);
+  if (!plot.cells.empty()) {
+    std::string text = axes + ",value\n";
+    for (const Cell& cell : plot.cells)
+      text += fmt::format("{},{},{}\n", number_text(cell.x), number_text(cell.y), number_text(cell.value));
+    return text;
+  }
+  const bool ranges =
+      std::any_of(plot.series.begin(), plot.series.end(), [](const Series& s) { return !s.range.empty(); });
+  std::string text = fmt::format("series,{},u{}\n", axes, ranges ? ",low,high" : "");
   for (const Series& s : plot.series)
-    for (std::size_t i = 0; i < s.xy.size(); ++i)
-      text += fmt::format("{},{},{},{}\n", field(s.name), number_text(s.xy[i][0]), number_text(s.xy[i][1]),
+    for (std::size_t i = 0; i < s.xy.size(); ++i) {
+      const auto [x, y] = s.xy[i];
+      const auto row = static_cast<std::size_t>(std::lround(y));
+      text += fmt::format("{},{},{},{}", field(s.name), number_text(x),
+                          plot.rows.empty() ? number_text(y) : field(plot.rows.at(row)),
                           s.u.empty() ? "" : number_text(s.u[i]));
+      if (ranges && !s.range.empty())
+        text += fmt::format(",{},{}", number_text(s.range[i][0]), number_text(s.range[i][1]));
+      else if (ranges)
+        text += ",,";
+      text += "\n";
+    }
   return text;
 }
 

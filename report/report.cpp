@@ -17,6 +17,7 @@
 #include "core/bad_input.h"
 #include "core/csv.h"
 #include "core/sha256.h"
+#include "report/diagnosis_page.h"
 #include "report/equation_pages.h"
 #include "report/file_pages.h"
 #include "report/run_pages.h"
@@ -245,7 +246,7 @@ void Work::add_runs() {
 void Work::add_files() {
   const bool is_run = !runs.empty() && runs.front().first.empty();
   std::vector<fs::path> csv, other;
-  std::vector<std::pair<fs::path, json>> fits;
+  std::vector<std::pair<fs::path, json>> fits, diagnoses;
   std::vector<Picture> pictures;
   const std::set<std::string> of_a_run = {"torque.csv", "run.json"},
                               of_post = {"power.json", "phase.csv", "grains.png", "torque.png"};
@@ -262,11 +263,15 @@ void Work::add_files() {
       json j = json::parse(text_of(file), nullptr, false);
       if (j.is_object() && j.contains("coefficients") && j.contains("prediction"))
         fits.emplace_back(file, std::move(j));
+      else if (gap::is_diagnosis(j))
+        diagnoses.emplace_back(file, std::move(j));
       else
         other.push_back(file);
     }
   }
   const auto relative = [&](const fs::path& file) { return file.lexically_relative(folder).string(); };
+  for (const auto& [file, diagnosis] : diagnoses)
+    gap::add_diagnosis(diagnosis, file.string(), file.stem().string() + "_", page);
   for (const auto& [file, fit] : fits) add_fit(fit, file.string(), file.stem().string(), page);
   for (const fs::path& file : csv) add_csv(file.string(), relative(file), fits.empty(), page);
   for (const fs::path& file : other) add_json(file.string(), relative(file), page);
@@ -278,7 +283,8 @@ void Work::add_files() {
     for (const Picture& picture : pictures) section.blocks.push_back(picture);
     page.sections.push_back(std::move(section));
   }
-  for (const auto& [file, fit] : fits) read.insert(file.string());
+  for (const auto* list : {&fits, &diagnoses})
+    for (const auto& [file, content] : *list) read.insert(file.string());
   for (const auto* list : {&csv, &other})
     for (const fs::path& file : *list) read.insert(file.string());
   if (runs.empty() && fs::exists(folder / "run.json")) runs.emplace_back("", folder);
@@ -300,9 +306,8 @@ std::vector<std::string> write_report(const ReportRequest& request) {
     throw BadInput(request.folder, 0, "holds nothing to report",
                    "name a run folder, or one with CSV or JSON files of results");
   const std::string name = fs::canonical(folder).filename().string();
-  page.title = "Report on " + name;
-  page.subtitle = fmt::format(
-      "Paddle mixer under the ViElTo contact law. Made by vielto {} from the files named at the end.", VIELTO_VERSION);
+  page.title = (page.sentence.empty() ? "Report on " : "Gap between simulation and measurement: ") + name;
+  page.subtitle = fmt::format("Made by vielto {} from the files named at the end.", VIELTO_VERSION);
   if (page.summary.empty())
     page.summary.push_back(
         {"Tables and plots of what lies in the folder; there is no evaluated mixer run and no fitted equation in it."});

@@ -29,6 +29,7 @@
 #include "gap/question/question.h"
 #include "gap/question/sealed.h"
 #include "gap/question/simulated.h"
+#include "gap/verdict/points.h"
 #include "report/diagnosis_page.h"
 
 namespace vielto {
@@ -158,6 +159,7 @@ void write_answer(const GapOptions& o, const Question& q, const Diagnosis& d, co
   std::vector<std::string> shown = d.verdict == Verdict::ambiguous ? d.group : d.named;
   shown.resize(std::min<std::size_t>(shown.size(), 2));
   j["sources"] = sources_json(q.inputs.library, shown);
+  add_points(j, points_of(q.model, d));
   const fs::path out = make_out(o.out);
   const std::string page = diagnosis_page(j, title_of(o));
   write_json(out / "diagnosis.json", j);

@@ -5,10 +5,10 @@ const plots = new Map(JSON.parse(document.getElementById('plots').textContent).m
 const dark = window.matchMedia('(prefers-color-scheme: dark)');
 const charts = new Map();
 
-function draw(box) {
+function draw(box, onDark = dark.matches) {
   charts.get(box)?.dispose();
-  const chart = echarts.init(box, dark.matches ? 'dark' : null, {renderer: 'svg'});
-  const option = structuredClone(plots.get(box.dataset.plot).option);
+  const chart = echarts.init(box, onDark ? 'dark' : null, {renderer: 'svg'});
+  const option = completed(structuredClone(plots.get(box.dataset.plot).option));
   option.backgroundColor = 'transparent';
   option.tooltip.valueFormatter = (value) => (typeof value === 'number' ? String(Number(value.toPrecision(5))) : value);
   chart.setOption(option);
@@ -23,4 +23,10 @@ const sizes = new ResizeObserver((entries) => {
   }
 });
 for (const box of document.querySelectorAll('.chart')) sizes.observe(box);
+// On paper nothing is folded, and every plot is drawn for white and as wide as the paper.
+window.addEventListener('beforeprint', () => {
+  for (const details of document.querySelectorAll('details')) details.open = true;
+  for (const box of document.querySelectorAll('.chart')) draw(box, false);
+});
+window.addEventListener('afterprint', () => { for (const box of charts.keys()) draw(box); });
 dark.addEventListener('change', () => { for (const box of charts.keys()) draw(box); });

@@ -4,11 +4,12 @@
 const fs = require('fs');
 const path = require('path');
 const [, , library, list, folder] = process.argv;
+const {completed} = require(path.join(__dirname, 'shared.js'));
 const echarts = require(path.resolve(library));
 
 const titleHeight = 34;
 for (const plot of JSON.parse(fs.readFileSync(list, 'utf8'))) {
-  const option = plot.option;
+  const option = completed(plot.option);
   for (const part of [...option.title, option.legend]) part.top += titleHeight;
   option.title.push({text: plot.title, left: 10, top: 8, textStyle: {fontSize: 16}});
   option.grid.top += titleHeight;

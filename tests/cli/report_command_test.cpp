@@ -103,6 +103,36 @@ class Report : public testing::Test {
           R"({"schema": 1, "shear_stress_peak_Pa": 8333.3, "notes": ["</script><script>alert(1)</script>"]})");
   }
 
+  void make_diagnosis(const std::string& name, bool with_points = true) {
+    json d = json::parse(text_of(kSource / "findings/wheat_walls/diagnosis.json"));
+    d["verdict"] = "named";
+    d["named"] = {"drive_loss"};
+    d["group"] = json::array();
+    d["sentence"] = "There is a gap, explained by drive_loss.";
+    d["next_test"]["name"] = "weigh_the_load";
+    d["reference"] = {{"state", "as delivered"}};
+    d.erase("points");
+    const auto band = [](double value) {
+      return json{{"value", value}, {"low95", 0.9 * value}, {"high95", 1.1 * value}};
+    };
+    if (with_points)
+      for (const double fill : {0.1, 0.15, 0.2, 0.25})
+        for (const double speed : {1, 2, 3, 4}) {
+          const double measured = 10 * fill * speed;
+          d["points"].push_back({{"test", "t"},
+                                 {"role", "fit"},
+                                 {"apparatus", "mixer"},
+                                 {"observable", "power"},
+                                 {"unit", "W"},
+                                 {"speed", speed},
+                                 {"fill", fill},
+                                 {"measured", band(measured)},
+                                 {"before", band(measured * (1 + 0.1 * speed))},
+                                 {"after", band(measured)}});
+        }
+    write(name + "/diagnosis.json", d.dump());
+  }
+
   fs::path folder_;
   std::string err_;
 };
@@ -195,6 +225,33 @@ TEST_F(Report, OfAnotherRigDrawsItsColumnsByUnit) {
   EXPECT_EQ(page.find("<script>alert"), std::string::npos);  // text from files is text
 }
 
+// Sixteen measured powers that the simulation overshoots by a share that grows with speed, closed by an effect.
+TEST_F(Report, OfADiagnosisShowsVerdictMapAndBands) {
+  make_diagnosis("answer");
+  ASSERT_EQ(report("answer"), 0) << err_;
+  const fs::path out = folder_ / "answer/report";
+  const std::string page = text_of(out / "report.html");
+  for (const char* part :
+       {"<p class=\"verdict\">There is a gap, explained by drive loss", "Cause named", "with drive loss",
+        "Map of the gap", "any other two together", "Next test", "weigh the load", "The reference state"})
+    EXPECT_NE(page.find(part), std::string::npos) << part;
+  const auto simulated = series(out / "diagnosis_mixer_power_over_speed_fill_0_1.csv", "simulated");
+  ASSERT_EQ(simulated.size(), 4u);
+  EXPECT_DOUBLE_EQ(simulated[3][1], 10 * 0.1 * 4 * 1.4);
+  const auto map = series(out / "diagnosis_mixer_power_gap_before.csv", "4");  // rows speed,fill,gap: those of speed 4
+  ASSERT_EQ(map.size(), 4u);
+  for (const auto& cell : map) EXPECT_NEAR(cell[1], 40, 1e-9);
+  EXPECT_EQ(text_of(out / "diagnosis_mixer_power_over_speed_fill_0_1.svg").rfind("<svg", 0), 0u);
+  // An answer without points, as older ones are, still makes a page; one without a verdict's numbers is refused.
+  make_diagnosis("old", false);
+  ASSERT_EQ(report("old"), 0) << err_;
+  EXPECT_NE(text_of(folder_ / "old/report/report.html").find("has no points"), std::string::npos);
+  write("bad/diagnosis.json", R"({"verdict": "named", "sentence": "", "probabilities": {}})");
+  EXPECT_EQ(report("bad"), 2);
+  EXPECT_NE(err_.find("bad/diagnosis.json: is no diagnosis"), std::string::npos) << err_;
+  EXPECT_EQ(count(err_, "\n"), 1u) << err_;
+}
+
 TEST_F(Report, RefusesInOneLineAndLeavesNothing) {
   make_run("run");
   fs::create_directories(folder_ / "empty");
@@ -227,7 +284,7 @@ TEST_F(Report, WithoutThePlottingLibraryAsksForIt) {
   fs::create_directories(folder_ / "install/bin");
   fs::create_directories(folder_ / "install/share/vielto/report");
   fs::copy_file(VIELTO_BIN_DIR "/vielto", folder_ / "install/bin/vielto");
-  for (const char* file : {"page.css", "page.js", "svg.js"})
+  for (const char* file : {"page.css", "page.js", "shared.js", "svg.js"})
     fs::copy_file(kSource / "report/web" / file, folder_ / "install/share/vielto/report" / file);
   EXPECT_EQ(run("install/bin/vielto report run"), 2);
   EXPECT_NE(err_.find("scripts/get-echarts"), std::string::npos) << err_;
@@ -257,6 +314,7 @@ TEST_F(ReportInABrowser, OpensOfflineOnPhoneAndDesktopLightAndDark) {
   make_run("all/run");
   make_fit("all");
   make_shear_box("all");
+  make_diagnosis("all");
   ASSERT_EQ(report("all"), 0) << err_;
   const json seen = look("all/report/report.html");
   ASSERT_EQ(seen.size(), 4u) << seen.dump();
@@ -270,7 +328,8 @@ TEST_F(ReportInABrowser, OpensOfflineOnPhoneAndDesktopLightAndDark) {
     std::map<std::string, json> plots;
     for (const json& plot : page["opened"]["plots"]) plots[plot["name"]] = plot;
     for (const char* name : {"power_over_speed", "parity", "run_torque_over_time", "run_torque_over_phase",
-                             "equation_parity", "equation_power_over_fill", "equation_residuals_N_C", "shear_csv_N"}) {
+                             "equation_parity", "equation_power_over_fill", "equation_residuals_N_C", "shear_csv_N",
+                             "diagnosis_mixer_power_over_speed_fill_0_2", "diagnosis_mixer_power_gap_after"}) {
       ASSERT_TRUE(plots.count(name)) << name;
       EXPECT_GT(plots[name]["marks"], 8) << window << " " << name;
       EXPECT_GT(plots[name]["words"].size(), 6u) << window << " " << name;

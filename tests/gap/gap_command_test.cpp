@@ -91,7 +91,15 @@ TEST_F(GapCommand, DiagnosesAKnownEffectAndWritesTheProtocolsKeys) {
   for (const char* key : {"versions", "hashes", "seeds", "commands"}) EXPECT_TRUE(d["provenance"].contains(key)) << key;
   const std::string page = content(folder_ / "answer/diagnosis.html");
   EXPECT_NE(page.find(d["sentence"].get<std::string>()), std::string::npos);
-  EXPECT_EQ(page.find("src="), std::string::npos);  // self-contained
+  for (const char* outside : {"src=\"http", "<link rel=\"stylesheet", "Beside this page"})
+    EXPECT_EQ(page.find(outside), std::string::npos) << outside;  // self-contained
+  ASSERT_EQ(d["points"].size(), rows_.size());
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    EXPECT_EQ(d["points"][i]["test"], rows_[i].test);
+    EXPECT_EQ(d["points"][i]["measured"]["value"], rows_[i].value);
+    EXPECT_TRUE(d["points"][i].contains("after"));
+  }
+  EXPECT_TRUE(d["effects"][0].contains("gap_left"));
 }
 
 TEST_F(GapCommand, TheSameTableGivesTheSameAnswer) {

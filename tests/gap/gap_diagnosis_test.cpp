@@ -8,8 +8,10 @@
 #include <algorithm>
 #include <fstream>
 
+#include "core/statistics.h"
 #include "gap/question/inputs.h"
 #include "gap/verdict/diagnosis.h"
+#include "gap/verdict/points.h"
 #include "gap_toy.h"
 #include "report/diagnosis_page.h"
 
@@ -286,6 +288,35 @@ TEST_F(GapDiagnosis, TheIntervalOfAShrinkHoldsTheNoiseOfMeasurementAndSimulation
   apart.value.tail(3).setConstant(1.3);
   const Shrink wide = shrink_of(six, simulated_rows(6, 1.4), apart, apart, apart);
   EXPECT_LT(wide.closed.low90, wide.closed.value - 0.03);
+}
+
+// The toy's formulas themselves, without noise, are what the points simulate: without the effect before, with it after.
+TEST_F(GapDiagnosis, PointsSimulateWithoutTheEffectAndWithIt) {
+  toy::State state;
+  state.effects["cohesion"] = 200;
+  std::mt19937_64 random(11);
+  int n = 0, before = 0, after = 0;
+  const auto holds = [](const Band95& band, double truth) { return truth >= band.low95 && truth <= band.high95; };
+  for (int draw = 0; draw < 5; ++draw) {
+    const auto rows = toy::measured(state, random);
+    const TableModel m = model(rows);
+    const Diagnosis d = diagnose(m, threshold_, inputs_->settings);
+    ASSERT_EQ(d.applied(), std::vector<std::string>{"cohesion"});
+    const Points points = points_of(m, d);
+    ASSERT_EQ(points.points.size(), rows.size());
+    for (std::size_t i = 0; i < rows.size(); ++i, ++n) {
+      const ComparedRow& point = points.points[i];
+      EXPECT_NEAR(point.measured.high95, rows[i].value + kNormal975 * rows[i].u, 1e-9 * rows[i].value);
+      before += holds(point.before, toy::value(rows[i], {}));
+      after += holds(*point.after, toy::value(rows[i], state));
+    }
+    EXPECT_EQ(points.effects.front().name, "cohesion");
+    EXPECT_LT(points.effects.front().gap_left, points.gap_recalibrated);
+    EXPECT_LT(points.gap_recalibrated, points.gap_before);
+  }
+  // bands of 95 %, rows of one table far from independent
+  EXPECT_GE(before, 9 * n / 10);
+  EXPECT_GE(after, 9 * n / 10);
 }
 
 // A drum at two tilts has a region for each, since the gap may lie in one of them only.

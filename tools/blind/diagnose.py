@@ -37,4 +37,5 @@ def work(options):
         done = subprocess.run(words, stdout=subprocess.DEVNULL)
         if done.returncode:
             raise RunFailed(f"{case}: could not be diagnosed")
+        (options.answers / case.name / "diagnosis.html").unlink()  # a megabyte each, which nobody reads
         progress.step()
