@@ -10,12 +10,29 @@
 Rows whose column matches every `where` (a regular expression for the whole cell; several are divided by `;`) are put
 together where their cells of `by` are the same, in the order of their first row; without `by` each row stands alone. A
 column is shown as `LABEL = [mean|sd|u|min|max|n] [FACTOR] COLUMN [FORMAT]`: the mean of the group unless told otherwise,
-u the standard deviation over the root of the number of rows; a column of words as it is. The path starts at the repository's root.
+u the standard deviation over the root of the number of rows; a column of words as it is. A cell may hold two of them,
+WHAT ± WHAT. The path starts at the repository's root. With
+
+    :across: speed 1/s = relative_gap +.0%
+
+every value of that column, with the unit behind it, is a further column that shows this.
+
+The directive {values}: the same from JSON files, a row for each template and a column for each file (LABEL = PATH).
+
+    ```{values}
+    :files: with bench rows = findings/withheld_drum/score.json; without = findings/withheld_drum/score_without_bench.json
+    :rows: right ({right_n}) = {right:.2f} [{right_low95:.2f}, {right_high95:.2f}]
+    ```
+
+Names in braces are keys (`a.b` one inside another) of the column's file, in a row's label those of the first file. A
+cell whose key is not there or null is a dash.
 """
 import csv
+import json
 import pathlib
 import re
 import statistics
+import string
 
 from docutils import nodes
 from docutils.parsers.rst import Directive, directives
@@ -52,13 +69,16 @@ def groups(rows, by):
 
 def shown(rows, what):
     """One cell: `what` as the directive's `show` has it behind the label."""
+    if " ± " in what:
+        return " ± ".join(shown(rows, part) for part in what.split(" ± "))
     words = what.split()
     if words == ["n"]:
         return str(len(rows))
     named = words[0] in STATISTICS and len(words) > 1 and not words[1].startswith(".")  # else a column of that name
     statistic = STATISTICS[words.pop(0)] if named else statistics.fmean
     factor = float(words.pop(0)) if re.fullmatch(r"[-+.\de]+", words[0]) else 1.0
-    column, form = words[0], words[1] if len(words) > 1 else ".3g"
+    form = words.pop() if re.fullmatch(r"\+?\.\d+[a-z%]", words[-1]) else ".3g"
+    column = " ".join(words)
     cells = [row[column] for row in rows if row[column] != ""]
     try:
         values = [factor * float(cell) for cell in cells]
@@ -67,12 +87,62 @@ def shown(rows, what):
     if not values:
         return "–"
     value = statistic(values)
-    return "–" if value != value else format(value, form).replace("-", "−")
+    return (
+        "–"
+        if value != value
+        else re.sub(r"^-(?=[0.]*%?$)", "", format(value, form)).replace("-", "−").replace("%", " %")
+    )
+
+
+class Values(string.Formatter):
+    """Fills a template from one JSON file."""
+
+    def __init__(self, content):
+        super().__init__()
+        self.content = content
+
+    def get_field(self, name, args, kwargs):
+        value = self.content
+        for key in name.split("."):
+            value = value[key]
+        if value is None:
+            raise KeyError(name)
+        return value, name
+
+    def filled(self, template):
+        try:
+            text = self.format(template)
+        except KeyError:
+            return "–"
+        return re.sub(r"-(?=[\d.])", "−", re.sub(r"-(0(?:\.0+)?)(?![\d.])", r"\1", text))  # no -0.00
+
+
+class JsonValues(Directive):
+    option_spec = {"files": directives.unchanged_required, "rows": directives.unchanged_required}
+
+    def run(self):
+        columns = [[part.strip() for part in file.split("=", 1)] for file in self.options["files"].split(";")]
+        contents = []
+        for _, path in columns:
+            self.state.document.settings.env.note_dependency(str(ROOT / path))
+            try:
+                contents.append(Values(json.loads((ROOT / path).read_text(encoding="utf-8"))))
+            except (OSError, ValueError) as fault:
+                raise self.error(f"{path}: {fault!r}") from fault
+        body = []
+        for row in self.options["rows"].split(";"):
+            label, template = (part.strip() for part in row.split("=", 1))
+            cells = [content.filled(template) for content in contents]
+            if set(cells) == {"–"}:
+                raise self.error(f"{template}: no file holds this")
+            body.append([contents[0].filled(label), *cells])
+        return [table(["", *(label for label, _ in columns)], body)]
 
 
 class Results(Directive):
     required_arguments = 1
     option_spec = {
+        "across": directives.unchanged,
         "where": directives.unchanged,
         "by": directives.unchanged,
         "show": directives.unchanged_required,
@@ -88,10 +158,29 @@ class Results(Directive):
                 raise self.error(f"{path.name}: no row is left under `where`")
             columns = [part.split("=", 1) for part in self.options["show"].split(";")]
             by = self.options.get("by", "").split()
-            cells = [[shown(group, what) for _, what in columns] for group in groups(rows, by)]
+            spread_out, across = across_columns(self.options.get("across"), rows)
+            cells = [
+                [shown(group, what) for _, what in columns] + [across(group, value) for _, value in spread_out]
+                for group in groups(rows, by)
+            ]
         except (OSError, KeyError, ValueError) as fault:
             raise self.error(f"{self.arguments[0]}: {fault!r}") from fault
-        return [table([label.strip() for label, _ in columns], cells)]
+        return [table([label.strip() for label, _ in columns] + [label for label, _ in spread_out], cells)]
+
+
+def across_columns(option, rows):
+    """[(label, value)] of the further columns, and what writes a cell of one."""
+    if not option:
+        return [], None
+    head, what = option.split("=", 1)
+    column, *unit = head.split()
+    values = dict.fromkeys(row[column] for row in rows)
+
+    def cell(group, value):
+        there = [row for row in group if row[column] == value]
+        return shown(there, what) if there else "–"
+
+    return [(" ".join([value, *unit]), value) for value in values], cell
 
 
 def table(head, body, code=0):
@@ -113,4 +202,5 @@ def table(head, body, code=0):
 
 def setup(app):
     app.add_directive("results", Results)
+    app.add_directive("values", JsonValues)
     return {"parallel_read_safe": True}

@@ -44,6 +44,28 @@ with tempfile.TemporaryDirectory(prefix="vielto-responses-") as name:
     assert f"| shape | 0.2 | speed 0.5, fill 0.1 | +50 ± {shape:.0f} % |" in told.stdout, told.stdout
     assert f"| frictionAngle 25 | 0 | speed 0.5, fill 0.1 | -20 ± {member:.0f} % |" in told.stdout, told.stdout
 
+    # as a table; and a second speed with baseline 20, 20 and one run of the effect 20, +0 % there: the exponent falls by ln 1.5/ln 2
+    out = folder / "out.csv"
+    assert responses(folder, "--out", out).returncode == 0
+    first, *rows = out.read_text().splitlines()
+    assert first == "what,strength,speed,fill,moisture,normal_stress,shear_velocity,tilt,response,u", first
+    assert rows == ["one seed,,0.5,0.1,,,,,0,0.1", f"shape,0.2,0.5,0.1,,,,,0.5,{shape / 100:.4g}"], rows
+    faster = folder / "faster"
+    faster.mkdir()
+    (faster / "design.csv").write_text(
+        (folder / "design.csv").read_text() + "g,none,0,1,g,20\nh,none,0,2,h,20\ni,shape,0.2,1,i,20\n"
+    )
+    (faster / "observations.csv").write_text(
+        (folder / "observations.csv").read_text()
+        + "".join(f"{t},fit,mixer,power,20,0.4,W,1,0.1,,,,,,m\n" for t in ("g", "h", "i"))
+    )
+    told = responses(faster, "--exponent", "speed", "--out", out)
+    u = math.hypot(shape / 150, 0.4 / 20) / math.log(2)
+    assert told.returncode == 0, told.stderr
+    assert (
+        out.read_text().splitlines()[1] == f"shape,0.2,,0.1,,,,,{-math.log(1.5) / math.log(2):.4g},{u:.4g}"
+    ), out.read_text()
+
     # the family: members 8, 12, 13 are -20, +20, +30 %: mean +10 %, variance 700, less that of the runs (20, 12, 13 %)
     assert "family" not in told.stdout
     for k, v in ((26, 12), (27, 13)):

@@ -10,6 +10,8 @@ run's own u; of a mean over n runs, that over the root of n. The scatter is that
 where --pool is given. For the calibrated family: mean and standard deviation of its members, the runs' own
 scatter taken out, and the band of two of them to either side (95 % of a normal distribution).
 The picture (python3-matplotlib) has a panel for each effect, a line for each condition.
+--out: the same as a table, with the scatter of a seed and the calibrated family as rows of their own; with --pairs that of the
+pairs; with --exponent CONDITION the exponent that each effect adds to a power law in it, between its ends.
 --pairs: runs with two effects at once (tests called SOME_EFFECT1_and_EFFECT2_sN), beside what the two make if they multiply.
 """
 import math
@@ -28,6 +30,10 @@ def add_options(parser):
     parser.add_argument("library", type=pathlib.Path)
     parser.add_argument("--observable", default="power", help="power, angle, torque_ripple, ...")
     parser.add_argument("--pool", action="store_true", help="one scatter for all conditions")
+    parser.add_argument("--out", type=pathlib.Path, metavar="CSV")
+    parser.add_argument(
+        "--exponent", choices=CONDITIONS, help="of this condition, between its least and its greatest value"
+    )
     pictures.add_option(parser)
     parser.add_argument(
         "--pairs", type=pathlib.Path, metavar="TABLE", help="observations of runs with two effects: do they multiply?"
@@ -57,6 +63,64 @@ def work(options):
     tell(options.observable, scatter, family, table)
     if pairs:
         tell_pairs(pairs)
+    trend = exponents(table, options.exponent) if options.exponent else []
+    for what, strength, at, value, u in trend:
+        print(f"{what} {strength:g} adds {value:+.2f} ± {u:.2f} to the exponent of {options.exponent} at {text(at)}")
+    if options.out:
+        if options.pairs:
+            rows = pair_rows(pairs)
+        elif options.exponent:
+            rows = [of(what, s, at, exponent=value, u=u) for what, s, at, value, u in trend]
+        else:
+            rows = response_rows(scatter, family, table)
+        write(options.out, rows)
+
+
+def of(what, strength, at, **values):
+    """A row of a table to write: its conditions by their names."""
+    conditions = {c: f"{dict(at)[c]:g}" if c in dict(at) else "" for c in CONDITIONS}
+    told = {name: f"{value:.4g}" for name, value in values.items()}
+    return {"what": what, "strength": strength if strength == "" else f"{strength:g}", **conditions, **told}
+
+
+def response_rows(scatter, family, table):
+    rows = [of("one seed", "", at, response=0, u=sd) for at, sd in sorted(scatter.items())]
+    for at, (_, middle, sd) in sorted(family.items()):
+        rows.append(
+            of("calibrated family", "", at, response=middle, u=sd, low95=middle - 2 * sd, high95=middle + 2 * sd)
+        )
+    return rows + [of(what, strength, at, response=r, u=u) for what, strength, at, r, u in table if strength]
+
+
+def pair_rows(pairs):
+    return [
+        of(pair, "", at, together=change, u=u, product=product, beyond=beyond, beyond_u=u_beyond)
+        for pair, at, change, u, product, _, beyond, u_beyond in pairs
+    ]
+
+
+def write(path, rows):
+    tables.write(path, list(dict.fromkeys(name for row in rows for name in row)), rows)
+
+
+def exponents(table, condition):
+    """[(what, strength, other conditions, change, u)]: ln((1 + r_high)/(1 + r_low)) / ln(high/low) of each effect that was
+    run at the condition's least and greatest value with all else alike; its scatter at both ends is independent."""
+    ends = defaultdict(dict)
+    for what, strength, at, r, u in table:
+        others = tuple((c, v) for c, v in at if c != condition)
+        if strength and condition in dict(at):
+            ends[what, strength, others][dict(at)[condition]] = r, u
+    rows = []
+    for (what, strength, others), seen in ends.items():
+        low, high = min(seen), max(seen)
+        if not 0 < low < high:
+            continue
+        (r_low, u_low), (r_high, u_high) = seen[low], seen[high]
+        over = math.log(high / low)
+        change = math.log((1 + r_high) / (1 + r_low)) / over
+        rows.append((what, strength, others, change, math.hypot(u_low / (1 + r_low), u_high / (1 + r_high)) / over))
+    return rows
 
 
 def read(path, columns):
