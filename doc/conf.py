@@ -10,7 +10,7 @@ sys.path.insert(0, str(ROOT / "doc" / "_ext"))
 project = "ViElTo for LIGGGHTS"
 author = "see AUTHORS"
 release = re.search(r"VERSION ([\d.]+)", (ROOT / "CMakeLists.txt").read_text().split("project(")[1])[1]
-extensions = ["myst_parser", "mathml", "results", "from_code"]
+extensions = ["myst_parser", "mathml", "results", "from_code", "questions"]
 myst_enable_extensions = ["colon_fence", "dollarmath", "deflist"]
 myst_heading_anchors = 3
 exclude_patterns = ["_ext"]
