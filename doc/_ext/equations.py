@@ -1,20 +1,24 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Equations as MathML, which browsers draw without a script: Debian's KaTeX translates them when the site is built."""
+"""Equations drawn by Debian's KaTeX when the site is built: HTML with KaTeX's style and fonts, which looks the same in every
+browser and needs no script; MathML beside it for those who have pages read to them."""
 import json
+import pathlib
+import shutil
 import subprocess
 
 from docutils import nodes
 from sphinx.errors import ExtensionError
 from sphinx.util.math import get_node_equation_number
 
-KATEX = "/usr/share/javascript/katex/katex.js"
-# One equation a line on stdin, its MathML or its fault a line on stdout.
+FOLDER = pathlib.Path("/usr/share/javascript/katex")
+KATEX = FOLDER / "katex.js"
+# One equation a line on stdin, its HTML or its fault a line on stdout.
 TRANSLATOR = """
 const katex = require(process.argv[1]);
 require('readline').createInterface({input: process.stdin}).on('line', line => {
   const {text, display} = JSON.parse(line);
   let answer;
-  try { answer = {mathml: katex.renderToString(text, {displayMode: display, output: 'mathml', strict: 'error'})}; }
+  try { answer = {html: katex.renderToString(text, {displayMode: display, output: 'htmlAndMathml', strict: 'error'})}; }
   catch (fault) { answer = {fault: String(fault.message)}; }
   console.log(JSON.stringify(answer));
 });
@@ -30,7 +34,7 @@ class Translator:
         try:
             if self.process is None:
                 self.process = subprocess.Popen(
-                    ["node", "-e", TRANSLATOR, KATEX], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
+                    ["node", "-e", TRANSLATOR, str(KATEX)], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
                 )
             print(json.dumps({"text": text, "display": display}), file=self.process.stdin, flush=True)
             answer = json.loads(self.process.stdout.readline())
@@ -38,7 +42,7 @@ class Translator:
             raise ExtensionError(f"equations need node and {KATEX}; scripts/install-packages docs") from fault
         if "fault" in answer:
             raise ExtensionError(f"no equation: {text}: {answer['fault']}")
-        return answer["mathml"]
+        return answer["html"]
 
     def end(self, *_):
         if self.process is not None:
@@ -65,7 +69,19 @@ def displayed(writer, node):
     raise nodes.SkipNode
 
 
+def copy_style(app, exception):
+    if exception or app.builder.format != "html":
+        return
+    to = pathlib.Path(app.outdir) / "_static/katex"
+    (to / "fonts").mkdir(parents=True, exist_ok=True)
+    shutil.copy(FOLDER / "katex.min.css", to)
+    for font in (FOLDER / "fonts").glob("*.woff2"):
+        shutil.copy(font, to / "fonts")
+
+
 def setup(app):
-    app.add_html_math_renderer("mathml", (inline, None), (displayed, None))
+    app.add_html_math_renderer("katex", (inline, None), (displayed, None))
+    app.add_css_file("katex/katex.min.css")
     app.connect("build-finished", translate.end)
+    app.connect("build-finished", copy_style)
     return {"parallel_read_safe": True}
