@@ -10,6 +10,7 @@
 #include "core/bad_input.h"
 #include "core/record_file.h"
 #include "core/rig_table.h"
+#include "picture/film.h"
 #include "picture/render.h"
 #include "rigs/rig_code.h"
 
@@ -20,7 +21,7 @@ namespace fs = std::filesystem;
 
 struct PostOptions {
   PostInput input;
-  bool json = false, pictures = false;
+  bool json = false, pictures = false, film = false;
 };
 
 // A run folder stands for the record in it.
@@ -33,7 +34,8 @@ std::string record_path(const std::string& run) {
 }
 
 void post(const PostOptions& options) {
-  if (options.pictures) need_display();
+  if (options.pictures || options.film) need_display();
+  if (options.film) need_film_program();
   PostInput input = options.input;
   input.record = record_path(input.record);
   const std::string name = record_rig(input.record);
@@ -46,6 +48,7 @@ void post(const PostOptions& options) {
   if (!input.idle.empty()) input.idle = record_path(input.idle);
   const PostResult result = code->post(input);
   write_post(result, *rig, (fs::path(input.run()) / "post").string(), options.pictures);
+  if (options.film) result.film((fs::path(input.run()) / "post/grains.webm").string());
   for (const std::string& warning : result.warnings)
     std::fprintf(stderr, "vielto: WARNING: %s: %s\n", input.record.c_str(), warning.c_str());
   std::fputs((options.json ? result.numbers_text() : result.table).c_str(), stdout);
@@ -73,6 +76,8 @@ void add_post_command(CLI::App& app) {
   command->add_option("--moisture", options->input.label.moisture, "moisture (wet basis), for observations.csv")
       ->check(CLI::Range(0.0, 1.0));
   command->add_flag("--pictures", options->pictures, "also draw pictures into post/");
+  command->add_flag("--animation", options->film,
+                    "also draw every dump of the grains, of a mixer those of the last turn, as a film (needs ffmpeg)");
   command->add_flag("--json", options->json, "print the numbers as JSON instead of the table");
   command->callback([options] { post(*options); });
 }

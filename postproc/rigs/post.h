@@ -41,6 +41,7 @@ struct PostResult {
   nlohmann::ordered_json numbers;
   std::vector<PostFile> files;
   std::vector<PostPicture> pictures;
+  std::function<void(const std::string& path)> film;  // of the grains (rigs/rig_picture.h)
   std::vector<std::string> warnings;
 
   std::string numbers_text() const { return numbers.dump(2) + "\n"; }

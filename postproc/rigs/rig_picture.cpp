@@ -29,8 +29,10 @@
 #include <cmath>
 #include <filesystem>
 #include <optional>
+#include <vector>
 
 #include "core/bad_input.h"
+#include "picture/film.h"
 #include "picture/render.h"
 
 namespace vielto {
@@ -45,26 +47,36 @@ struct Dump {
   long step = -1;
 };
 
-// The dump of the latest step: NAME_STEP.vtk or NAME_STEP.stl; LIGGGHTS writes the box beside it as
-// NAME_boundingBox_STEP.vtk.
-std::optional<Dump> last_dump(const fs::path& folder, const char* type) {
-  std::optional<Dump> last;
+// The dumps in the order of their steps: NAME_STEP.vtk or NAME_STEP.stl;
+// LIGGGHTS writes the box beside it as NAME_boundingBox_STEP.vtk.
+std::vector<Dump> dumps(const fs::path& folder, const char* type) {
+  std::vector<Dump> list;
   std::error_code missing;
   for (const auto& file : fs::directory_iterator(folder, missing)) {
     const std::string name = file.path().stem().string();
     if (file.path().extension() != type || name.find("boundingBox") != std::string::npos) continue;
     const auto digits = name.find_last_not_of("0123456789") + 1;
     if (digits == name.size()) continue;
-    const long step = std::stol(name.substr(digits));
-    if (!last || step > last->step) last = Dump{file.path(), step};
+    list.push_back({file.path(), std::stol(name.substr(digits))});
   }
+  std::sort(list.begin(), list.end(), [](const Dump& a, const Dump& b) { return a.step < b.step; });
+  return list;
+}
+
+// The last one, or the last one up to a step.
+std::optional<Dump> last_dump(const fs::path& folder, const char* type, std::optional<long> up_to = {}) {
+  std::optional<Dump> last;
+  for (const Dump& dump : dumps(folder, type))
+    if (!up_to || dump.step <= *up_to) last = dump;
   return last;
 }
 
-// A heap's cylinder has been lifted off it, and the fixed grains of a rough base (centres under z = 0) would hide it.
+// A heap's cylinder has been lifted off it, and the fixed grains of a rough
+// base (centres under z = 0) would hide it.
 bool is_heap(const fs::path& run) { return fs::exists(run / "heap.csv"); }
 
-// Grains with the point data `speed`, m/s, and `diameter`, m; with `over_base` those with their centres over z = 0.
+// Grains with the point data `speed`, m/s, and `diameter`, m; with `over_base`
+// those with their centres over z = 0.
 vtkNew<vtkPolyData> read_grains(const fs::path& path, bool over_base) {
   vtkNew<vtkPolyDataReader> reader;
   reader->SetFileName(path.c_str());
@@ -95,7 +107,8 @@ vtkNew<vtkPolyData> read_grains(const fs::path& path, bool over_base) {
   return grains;
 }
 
-// From dark blue over green to yellow, even in lightness: readable in grey and with any colour vision.
+// From dark blue over green to yellow, even in lightness: readable in grey and
+// with any colour vision.
 vtkNew<vtkColorTransferFunction> speed_colours(double most) {
   vtkNew<vtkColorTransferFunction> colours;
   colours->SetColorSpaceToLab();
@@ -134,12 +147,13 @@ vtkNew<vtkTextActor> caption(const std::string& text, int size, double x, double
   return actor;
 }
 
-// The parts of the rig: the drum translucent, the rest turned about the x axis by `degrees`. Without an angle the parts
-// are where the last dump of meshes has them, or where they began, all of them translucent but for the rotor. False if
-// there is none.
-bool add_parts(vtkRenderer* renderer, const fs::path& run, std::optional<double> degrees) {
+// The parts of the rig: the drum translucent, the rest turned about the x axis
+// by `degrees`. Without an angle the parts are where the last dump of meshes
+// has them, or where they began, all of them translucent but for the rotor.
+// False if there is none.
+bool add_parts(vtkRenderer* renderer, const fs::path& run, std::optional<double> degrees, std::optional<long> step) {
   constexpr double kDrum = 0.18, kAnyPart = 0.4;
-  if (const auto moved = last_dump(run / "vtk", ".stl"); moved && !degrees) {
+  if (const auto moved = last_dump(run / "vtk", ".stl", step); moved && !degrees) {
     renderer->AddActor(part_actor(moved->path, 0, kAnyPart));
     return true;
   }
@@ -154,13 +168,18 @@ bool add_parts(vtkRenderer* renderer, const fs::path& run, std::optional<double>
   return any;
 }
 
-// True if they are coloured by speed; grains at rest have none worth a colour.
-bool add_grains(vtkRenderer* renderer, vtkPolyData* grains) {
-  constexpr double kRest = 1e-3;  // m/s
+double greatest_speed(vtkPolyData* grains) {
   double range[2] = {0, 0};
   grains->GetPointData()->GetArray("speed")->GetRange(range);
-  const bool moving = range[1] > kRest;
-  const auto colours = speed_colours(moving ? range[1] : 1);
+  return range[1];
+}
+
+// True if they are coloured by speed, up to `fastest`; grains at rest have none
+// worth a colour.
+bool add_grains(vtkRenderer* renderer, vtkPolyData* grains, double fastest) {
+  constexpr double kRest = 1e-3;  // m/s
+  const bool moving = fastest > kRest;
+  const auto colours = speed_colours(moving ? fastest : 1);
   vtkNew<vtkSphereSource> sphere;
   sphere->SetRadius(0.5);
   sphere->SetThetaResolution(20);
@@ -200,23 +219,25 @@ bool add_grains(vtkRenderer* renderer, vtkPolyData* grains) {
   return true;
 }
 
-}  // namespace
-
-bool has_dump(const std::string& run) { return last_dump(fs::path(run) / "vtk", ".vtk").has_value(); }
-
-bool draw_rig(const std::string& run, const TurningRotor* rotor, const std::string& path) {
-  const auto dump = last_dump(fs::path(run) / "vtk", ".vtk");
+// One look at the rig. `fastest`: speed at the end of the scale; nothing: that
+// of the dump.
+bool draw_look(const std::string& run, const TurningRotor* rotor, const std::optional<Dump>& dump,
+               std::optional<double> fastest, const std::string& path) {
   const double turns =
       rotor && dump ? std::max(0.0, (static_cast<double>(dump->step) - rotor->start_step) / rotor->steps_per_turn) : 0;
   vtkNew<vtkRenderer> renderer;
   renderer->SetBackground(1, 1, 1);
-  if (!add_parts(renderer, run, rotor ? std::optional(360 * turns) : std::nullopt)) return false;
+  if (!add_parts(renderer, run, rotor ? std::optional(360 * turns) : std::nullopt,
+                 dump ? std::optional(dump->step) : std::nullopt))
+    return false;
   const char* title = "The rig";
   double shown[6];
   renderer->ComputeVisiblePropBounds(shown);
   if (dump) {
     const auto grains = read_grains(dump->path, is_heap(run));
-    title = add_grains(renderer, grains) ? "Grains in the rig, coloured by speed" : "Grains in the rig, at rest";
+    title = add_grains(renderer, grains, fastest.value_or(greatest_speed(grains)))
+                ? "Grains in the rig, coloured by speed"
+                : "Grains in the rig, at rest";
     if (is_heap(run)) {
       double diameter[2];
       grains->GetPointData()->GetArray("diameter")->GetRange(diameter);
@@ -228,7 +249,8 @@ bool draw_rig(const std::string& run, const TurningRotor* rotor, const std::stri
   if (rotor)
     renderer->AddActor2D(caption(fmt::format("{}, after {:.2f} turns", rotor->caption, turns), 24, 40, kHeight - 110));
 
-  // A little from above; a shaft from its end for the most part, a shear box across the direction of shear (x).
+  // A little from above; a shaft from its end for the most part, a shear box
+  // across the direction of shear (x).
   vtkCamera* camera = renderer->GetActiveCamera();
   if (fs::exists(fs::path(run) / "shear.csv"))
     camera->SetPosition(-0.35, -1, 0.2);
@@ -251,6 +273,35 @@ bool draw_rig(const std::string& run, const TurningRotor* rotor, const std::stri
   window->AddRenderer(renderer);
   write_png(window, path);
   return true;
+}
+
+}  // namespace
+
+bool has_dump(const std::string& run) { return last_dump(fs::path(run) / "vtk", ".vtk").has_value(); }
+
+bool draw_rig(const std::string& run, const TurningRotor* rotor, const std::string& path) {
+  return draw_look(run, rotor, last_dump(fs::path(run) / "vtk", ".vtk"), std::nullopt, path);
+}
+
+void draw_film(const std::string& run, const TurningRotor* rotor, const std::string& path) {
+  std::vector<Dump> shown = dumps(fs::path(run) / "vtk", ".vtk");
+  if (rotor && !shown.empty()) {
+    const double after = static_cast<double>(shown.back().step) - rotor->steps_per_turn;
+    shown.erase(shown.begin(), std::find_if(shown.begin(), shown.end(), [after](const Dump& dump) {
+                  return static_cast<double>(dump.step) > after;
+                }));
+  }
+  if (shown.size() < 2)
+    throw BadInput(run.empty() ? "the folder" : run, 0, "holds fewer than two dumps of grains for a film",
+                   "run the mixer with -var vtkPerTurn 60, another rig with "
+                   "dumps of its own");
+  double fastest = 0;
+  for (const Dump& dump : shown) fastest = std::max(fastest, greatest_speed(read_grains(dump.path, is_heap(run))));
+  Film film(path);
+  for (const Dump& dump : shown)
+    if (!draw_look(run, rotor, dump, fastest, film.next_frame()))
+      throw BadInput(run, 0, "holds no mesh/*.stl", "name the folder of a run that is complete");
+  film.finish();
 }
 
 }  // namespace vielto

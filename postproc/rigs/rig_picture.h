@@ -6,17 +6,26 @@
 
 namespace vielto {
 
-// How far a rotor has turned since its start, from the step of a dump, and what is written over the picture.
+// How far a rotor has turned since its start, from the step of a dump, and what
+// is written over the picture.
 struct TurningRotor {
   double start_step = 0, steps_per_turn = 1;
   std::string caption;  // without the turns, which are added
 };
 
-// The last dump of grains in RUN/vtk (`dump custom/vtk` with v and radius), coloured by speed, in the meshes of
-// RUN/mesh: the drum translucent, every other part turned about the x axis to where the rotor stood; without a rotor
-// nothing is turned. Draws what is there of grains and meshes; false if there is no mesh. Errors: BadInput for a dump
-// without radius or velocity; std::runtime_error if the file cannot be written.
+// The last dump of grains in RUN/vtk (`dump custom/vtk` with v and radius),
+// coloured by speed, in the meshes of RUN/mesh: the drum translucent, every
+// other part turned about the x axis to where the rotor stood; without a rotor
+// nothing is turned. Draws what is there of grains and meshes; false if there
+// is no mesh. Errors: BadInput for a dump without radius or velocity;
+// std::runtime_error if the file cannot be written.
 bool draw_rig(const std::string& run, const TurningRotor* rotor, const std::string& path);
+
+// The same for every dump of RUN/vtk, of a rotor for those of its last whole
+// turn, with one scale of speed: a film of WebM (VP9), about four seconds long,
+// to be played over and over. Errors: as above, and BadInput for fewer than two
+// dumps; without ffmpeg need_film_program() says so before.
+void draw_film(const std::string& run, const TurningRotor* rotor, const std::string& path);
 
 // Whether RUN holds a dump of grains.
 bool has_dump(const std::string& run);

@@ -128,6 +128,29 @@ TEST_F(PostPictures, TorqueShadesTheAveragedTurnsOnly) {
   EXPECT_GT(picture.count(0.4, 0.6, shaded), 0.7 * 0.2 * all);
 }
 
+// Of the last turn only (3600 steps), one scale of speed for all: what ffprobe counts in the film.
+TEST_F(PostPictures, AnimationHoldsTheDumpsOfTheLastTurn) {
+  if (std::system("ffprobe -version >/dev/null 2>&1") != 0) GTEST_SKIP() << "needs the package ffmpeg";
+  record_.write(folder_ / "run");
+  write_plate("drum.stl", 0.1, -0.12);
+  write_dump("grains_3600.vtk");
+  EXPECT_EQ(post("xvfb-run -a", "run --animation"), 2);
+  EXPECT_NE(err_.find("fewer than two dumps"), std::string::npos) << err_;
+  EXPECT_EQ(std::count(err_.begin(), err_.end(), '\n'), 1) << err_;
+  for (const char* name : {"grains_5400.vtk", "grains_6300.vtk", "grains_7200.vtk"}) write_dump(name);
+  ASSERT_EQ(post("xvfb-run -a", "run --animation"), 0) << err_;
+  const std::string probe =
+      "cd '" + folder_.string() +
+      "' && ffprobe -v error -count_frames -show_entries stream=codec_name,width,height,nb_read_frames -of csv=p=0 "
+      "run/post/grains.webm > probe.txt";
+  ASSERT_EQ(std::system(probe.c_str()), 0);
+  std::string seen;
+  std::getline(std::ifstream(folder_ / "probe.txt"), seen);
+  EXPECT_EQ(seen, "vp9,960,600,3");
+  for (const auto& entry : fs::directory_iterator(folder_ / "run/post"))
+    EXPECT_EQ(entry.path().string().find("partial"), std::string::npos) << entry.path();
+}
+
 TEST_F(PostPictures, GrainsAreColouredBySpeed) {
   record_.write(folder_ / "run");
   write_dump("grains_3600.vtk");

@@ -36,6 +36,9 @@ PostResult post_mixer(const PostInput& input) {
   result.pictures = {
       {"torque.png", [loaded, power](const std::string& path) { draw_torque(loaded, power, path); }},
       {"grains.png", [loaded, run = input.run()](const std::string& path) { draw_grains(loaded, run, path); }}};
+  result.film = [rotor = turning_rotor(loaded), run = input.run()](const std::string& path) {
+    draw_film(run, &rotor, path);
+  };
   result.warnings = power.quality.warnings;
   return result;
 }

@@ -21,6 +21,7 @@ PostResult post_repose(const PostInput& input) {
   result.files = {{"profile.csv", repose_profile_csv(fit)}};
   result.pictures = {{"heap.png", [heap, fit](const std::string& path) { draw_heap(heap, fit, path); }},
                      {"grains.png", [run = input.run()](const std::string& path) { draw_rig(run, nullptr, path); }}};
+  result.film = [run = input.run()](const std::string& path) { draw_film(run, nullptr, path); };
   return result;
 }
 

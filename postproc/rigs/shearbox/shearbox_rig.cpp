@@ -19,6 +19,7 @@ PostResult post_shear(const PostInput& input) {
   result.files = {{"curve.csv", shear_curve_csv(shear)}};
   result.pictures = {{"shear.png", [record, shear](const std::string& path) { draw_shear(record, shear, path); }},
                      {"grains.png", [run = input.run()](const std::string& path) { draw_rig(run, nullptr, path); }}};
+  result.film = [run = input.run()](const std::string& path) { draw_film(run, nullptr, path); };
   result.warnings = shear.warnings;
   return result;
 }
