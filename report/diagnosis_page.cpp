@@ -345,6 +345,24 @@ std::string with_effect(const json& d) {
   return words;
 }
 
+// The points, and what the runs of the proof say there.
+json with_runs(const json& d) {
+  constexpr double kBand = 1.96;
+  json points = d.at("points");
+  const json shrink = d.value("shrink", json());
+  if (shrink.is_null()) return points;
+  for (const json& run : shrink.value("runs", json::array()))
+    for (json& point : points)
+      for (const char* variant : {"before", "after"})
+        if (point.at("test") == run.at("test") && point.at("observable") == run.at("observable") &&
+            run.contains(variant)) {
+          const double value = number(run[variant], "value"), half = kBand * number(run[variant], "u");
+          point[std::string(variant) + "_again"] = {
+              {"value", value}, {"low95", value - half}, {"high95", value + half}};
+        }
+  return points;
+}
+
 void add_plots(const json& d, const std::string& name, Page& page) {
   Section compared{"Measured against simulated", {}};
   if (!d.contains("points")) {
@@ -354,10 +372,12 @@ void add_plots(const json& d, const std::string& name, Page& page) {
     return;
   }
   compared.blocks.push_back(
-      Paragraph{"Grey: measured, with 95 % intervals. Red: simulated as calibrated. Green: simulated with the effect "
-                "in question, "
-                "where one is. Bands and bars of the simulation: 95 %, of all that is uncertain about it."});
-  const auto plots = comparison_plots(d["points"], name, with_effect(d));
+      Paragraph{"Measured values have 95 % intervals. The lines and bands of the simulation, as calibrated and with "
+                "the effect in "
+                "question, are the emulator's: 95 %, of all that is uncertain about it. Points called \"run again\" "
+                "are the runs of "
+                "the proof."});
+  const auto plots = comparison_plots(with_runs(d), name, with_effect(d));
   std::vector<Section> more;
   for (std::size_t i = 0; i < plots.size(); ++i) {
     Section folded{"Measured against simulated over " + cause(plots[i].over), {}, true};

@@ -22,7 +22,7 @@ constexpr std::array<std::pair<const char*, const char*>, 6> kConditionUnits = {
                                                                                  {"shear_velocity", "m/s"},
                                                                                  {"tilt", "deg"}}};
 constexpr std::size_t kFewestForALine = 3;
-constexpr int kMeasuredColour = 6, kBeforeColour = 1, kAfterColour = 2;
+constexpr int kMeasuredColour = 6, kBeforeColour = 1, kAfterColour = 2, kRunBeforeColour = 5, kRunAfterColour = 3;
 
 struct Shown {
   const char* key;
@@ -30,11 +30,16 @@ struct Shown {
   int colour;
   double shift;  // beside the others in its row
 };
-std::array<Shown, 3> shown_with(const std::string& with_effect) {
-  return {{{"measured", "measured", kMeasuredColour, -0.2},
-           {"before", "simulated", kBeforeColour, 0},
-           {"after", with_effect, kAfterColour, 0.2}}};
+// The runs of the proof are points beside the lines of the emulator.
+std::array<Shown, 5> shown_with(const std::string& with_effect) {
+  return {{{"measured", "measured", kMeasuredColour, -0.3},
+           {"before", "simulated", kBeforeColour, -0.1},
+           {"before_again", "run again", kRunBeforeColour, 0},
+           {"after", with_effect, kAfterColour, 0.1},
+           {"after_again", "run again " + with_effect, kRunAfterColour, 0.2}}};
 }
+
+bool is_a_line(const Shown& shown) { return shown.key == std::string("before") || shown.key == std::string("after"); }
 
 std::string in_words(std::string name) {
   std::replace(name.begin(), name.end(), '_', ' ');
@@ -122,8 +127,8 @@ Plot over_a_condition(std::vector<json> points, const std::string& condition, co
   plot.y_name = with_unit(points.front().at("observable"), points.front().at("unit"));
   plot.half = true;
   for (const Shown& shown : shown_with(with_effect)) {
-    const bool measured = shown.key == std::string("measured");
-    Series series{shown.name, measured ? Series::Look::points : Series::Look::line, shown.colour, {}, {}, {}, {}};
+    Series series{shown.name, is_a_line(shown) ? Series::Look::line : Series::Look::points, shown.colour, {}, {}, {},
+                  {}};
     for (const json& p : points) {
       if (!p.contains(shown.key)) continue;
       series.xy.push_back({p[condition].get<double>(), p[shown.key].at("value").get<double>()});
@@ -198,7 +203,7 @@ std::vector<Plot> gap_maps(const json& points, const std::string& name, const st
     double full = 5;
     std::vector<Plot> pair;
     for (const Shown& shown : shown_with(with_effect)) {
-      if (shown.key == std::string("measured")) continue;
+      if (!is_a_line(shown)) continue;
       Plot plot;
       plot.file = file_name(name + title_of(group) + "_gap_" + shown.key);
       plot.title = fmt::format("{}: {}", title_of(group), shown.name);

@@ -484,6 +484,14 @@ Shrink measured_shrink(const Plan& plan, const Inputs& inputs, const TableModel&
   const auto of = [&](Variant variant) { return simulated.count(variant) ? simulated.at(variant) : recalibrated; };
   Shrink s = shrink_of(check, simulated.at(Variant::before), recalibrated, of(Variant::after), of(Variant::placebo));
   s.placebo_name = plan.placebo;
+  for (Index i = 0; i < n; ++i) {
+    const Observation& row = model.rows[static_cast<std::size_t>(at[static_cast<std::size_t>(i)])];
+    SimulatedAgain again{row.test, row.observable, {}};
+    for (const Variant variant : {Variant::before, Variant::recalibrated, Variant::after})
+      if (const auto found = simulated.find(variant); found != simulated.end())
+        again.values.push_back({text_of(variant), found->second.value[i], found->second.u[i]});
+    s.runs.push_back(std::move(again));
+  }
   return s;
 }
 

@@ -355,6 +355,11 @@ nlohmann::ordered_json shrink_json(const Shrink& s) {
       {"mean_squares",
        {{"before", s.before2}, {"recalibrated", s.recalibrated2}, {"after", s.after2}, {"placebo", s.placebo2}}}};
   if (!s.placebo_name.empty()) j["placebo_effect"] = s.placebo_name;
+  for (const SimulatedAgain& run : s.runs) {
+    nlohmann::ordered_json row = {{"test", run.test}, {"observable", run.observable}};
+    for (const SimulatedAgain::Value& v : run.values) row[v.variant] = {{"value", v.value}, {"u", v.u}};
+    j["runs"].push_back(std::move(row));
+  }
   return j;
 }
 

@@ -37,6 +37,17 @@ struct NamedStrength {
   Interval interval;
 };
 
+// What the runs of a proof say at one check row: variant ("before", "recalibrated", "after"), value, standard
+// uncertainty.
+struct SimulatedAgain {
+  std::string test, observable;
+  struct Value {
+    std::string variant;
+    double value = 0, u = 0;
+  };
+  std::vector<Value> values;
+};
+
 // Root-mean-square relative gaps over the check rows with the measurement noise taken out.
 struct Shrink {
   int tests = 0;
@@ -45,6 +56,7 @@ struct Shrink {
   double before2 = 0, recalibrated2 = 0, after2 = 0, placebo2 = 0;
   Interval closed;  // 1 - after/before
   std::string placebo_name;
+  std::vector<SimulatedAgain> runs;  // of a measured shrink
 };
 
 // The measured side of a shrink: values, their covariance, and the test of each row.

@@ -112,6 +112,10 @@ class Report : public testing::Test {
     d["next_test"]["name"] = "weigh_the_load";
     d["reference"] = {{"state", "as delivered"}};
     d.erase("points");
+    d["shrink"]["runs"] = {{{"test", "t_0.10_3"},
+                            {"observable", "power"},
+                            {"before", {{"value", 3.9}, {"u", 0.1}}},
+                            {"after", {{"value", 3.1}, {"u", 0.1}}}}};
     const auto band = [](double value) {
       return json{{"value", value}, {"low95", 0.9 * value}, {"high95", 1.1 * value}};
     };
@@ -119,7 +123,7 @@ class Report : public testing::Test {
       for (const double fill : {0.1, 0.15, 0.2, 0.25})
         for (const double speed : {1, 2, 3, 4}) {
           const double measured = 10 * fill * speed;
-          d["points"].push_back({{"test", "t"},
+          d["points"].push_back({{"test", "t_" + std::to_string(fill).substr(0, 4) + "_" + std::to_string(int(speed))},
                                  {"role", "fit"},
                                  {"apparatus", "mixer"},
                                  {"observable", "power"},
@@ -238,6 +242,11 @@ TEST_F(Report, OfADiagnosisShowsVerdictMapAndBands) {
   const auto simulated = series(out / "diagnosis_mixer_power_over_speed_fill_0_1.csv", "simulated");
   ASSERT_EQ(simulated.size(), 4u);
   EXPECT_DOUBLE_EQ(simulated[3][1], 10 * 0.1 * 4 * 1.4);
+  // of the proof, told apart by test and observable
+  const auto run = series(out / "diagnosis_mixer_power_over_speed_fill_0_1.csv", "run again with drive loss");
+  ASSERT_EQ(run.size(), 1u);
+  EXPECT_EQ(run[0], (std::array<double, 2>{3, 3.1}));
+  EXPECT_TRUE(series(out / "diagnosis_mixer_power_over_speed_fill_0_2.csv", "run again").empty());
   const auto map = series(out / "diagnosis_mixer_power_gap_before.csv", "4");  // rows speed,fill,gap: those of speed 4
   ASSERT_EQ(map.size(), 4u);
   for (const auto& cell : map) EXPECT_NEAR(cell[1], 40, 1e-9);

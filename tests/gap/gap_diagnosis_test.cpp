@@ -319,6 +319,18 @@ TEST_F(GapDiagnosis, PointsSimulateWithoutTheEffectAndWithIt) {
   EXPECT_GE(after, 9 * n / 10);
 }
 
+// What the runs of a proof said stands in the answer, row by row.
+TEST(GapShrink, TellsTheValuesOfItsRuns) {
+  Shrink s;
+  s.runs = {{"t1", "power", {{"before", 3, 0.2}, {"after", 2, 0.1}}}};
+  const nlohmann::ordered_json run = shrink_json(s)["runs"][0];
+  EXPECT_EQ(run, (nlohmann::ordered_json{{"test", "t1"},
+                                         {"observable", "power"},
+                                         {"before", {{"value", 3.0}, {"u", 0.2}}},
+                                         {"after", {{"value", 2.0}, {"u", 0.1}}}}));
+  EXPECT_FALSE(shrink_json(Shrink()).contains("runs"));
+}
+
 // A drum at two tilts has a region for each, since the gap may lie in one of them only.
 TEST(GapRegions, OtherConditionsHaveTheirsToo) {
   std::vector<Observation> rows(4);
