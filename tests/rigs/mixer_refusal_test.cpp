@@ -41,7 +41,7 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"FillBelowZero", "-var fill -0.1", {"fill is -0.1", "0 to 0.5"}},
         Refusal{"FillOverRange", "-var fill 0.51", {"fill is 0.51", "0 to 0.5"}},
         Refusal{"SpeedZero", "-var speed 0", {"speed is 0", "> 0"}}, Refusal{"NoTurns", "-var turns 0", {"turns is 0"}},
-        Refusal{"TimeStepOverLimit", "-var dtFraction 0.051", {"dtFraction is 0.051", "at most 0.05"}},
+        Refusal{"TimeStepOverLimit", "-var dtFraction 0.051", {"dtFraction is 0.051", "at most dtLimit (0.05)"}},
         Refusal{"WordForNumber", "-var speed fast", {"speed is 'fast'", "number", "-var speed"}},
         Refusal{"WordForWallsNumber", "-var wall_frictionAngle steep", {"wall_frictionAngle is 'steep'", "number"}},
         Refusal{"UnknownWord", "-var energyBalance maybe", {"energyBalance is 'maybe'", "off or on"}},
