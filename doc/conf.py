@@ -18,6 +18,7 @@ html_theme = "furo"
 html_title = f"ViElTo for LIGGGHTS {release}"
 html_static_path = ["_static"]
 html_css_files = ["site.css"]
+html_js_files = ["site.js"]
 html_show_sphinx = False
 html_math_renderer = "katex"
 math_number_all = False
