@@ -125,7 +125,11 @@ class NormalModel<VIELTO> : public NormalModelBase {
       const double share = vielto::share(sidata, atom->nlocal, force->newton_pair);
       const double spring = springFactor_ * sidata.kn * sidata.deltan;
       tally_.elastic += share * 0.5 * spring * sidata.deltan;
-      tally_.normalDamping += share * (spring - sidata.Fn) * sidata.vn * update->dt;
+      /* In leapfrog the force F_k of a step works 1/2 (F_k-1 + F_k) v_k dt, v_k between the steps k-1 and k. Taken as
+         F_k v_k dt the dashpot's work is too much by 1/2 gamma v_k (v_k - v_k-1) dt, which adds up to gamma dt/(2
+         m_eff) times the kinetic energy that it takes from the relative motion: the share left out here. */
+      const double halfStep = 1 - 0.5 * sidata.gamman * update->dt / sidata.meff;
+      tally_.normalDamping += share * (spring - sidata.Fn) * sidata.vn * update->dt * halfStep;
     }
   }
 

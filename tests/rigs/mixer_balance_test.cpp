@@ -16,10 +16,11 @@ double sum_of_torques(const Table& rows, std::size_t k) {
 
 class MixerBalance : public testing::TestWithParam<const char*> {};
 
-/* Shaft work = dissipation by mechanism + change of kinetic, elastic and potential energy, within 1 % (the energy a
-   spring still holds when its contact opens, and the dashpots' losses, which are taken at half steps, are what is
-   left). Torque of rotor, drum and gravity on the bed = change of its angular momentum, whose mean over the window is 0
-   within its uncertainty, here from means of 15 rows. */
+/* Shaft work = dissipation by mechanism + change of kinetic, elastic and potential energy, within 1 %, of ViElTo within
+   0.5 %: its account of the normal dashpot is right to second order (normal_model_vielto.h), those of the other laws
+   take it at the end of the step. What a spring still holds when its contact opens is left. Torque of rotor, drum and
+   gravity on the bed = change of its angular momentum, whose mean over the window is 0 within its uncertainty, here
+   from means of 15 rows. */
 TEST_P(MixerBalance, ShaftWorkIsDissipatedAndTorquesAddUpToNothing) {
   Mixer mixer;
   mixer.must("run", four,
@@ -36,7 +37,7 @@ TEST_P(MixerBalance, ShaftWorkIsDissipatedAndTorquesAddUpToNothing) {
   const double stored = change("kinetic_J") + change("elastic_J") + change("potential_J");
   const double work = change("work_J");
   EXPECT_GT(work, 1);  // J: the paddles move the bed
-  EXPECT_NEAR(dissipated + stored, work, 0.01 * work);
+  EXPECT_NEAR(dissipated + stored, work, (std::string(GetParam()) == "vielto" ? 0.005 : 0.01) * work);
   // the work is the rotor's torque times its angle
   double torque = 0;
   for (std::size_t k = first + 1; k <= last; k++) torque += rotor(rows, k);
