@@ -6,9 +6,11 @@
 law         ViElTo over the stock law with the same ingredients: the law (pair loop and walls) and the whole step
 ranks       two ranks over one; bytes a grain
 yade        particle-steps a second over Yade's, the stirred drum of yade/stir
+yade_10k    the same drum 17 times as long, 10 200 grains
 lammps      a step over the distribution's LAMMPS with the same ingredients, a packing without walls
 size        cost of a grain and step against the number of grains
 triangles   cost of a step against the number of triangles
+grid        core minutes of the mixer's 4 x 4 grid of speeds and fills at 8 mm
 memory      the law over the time that the bytes it must move take at the bandwidth of a triad
 
 Engines that are compared start from the same grains and take turns, some steps of one, some steps of the other, many

@@ -4,17 +4,19 @@ import json
 import math
 import os
 import pathlib
+import resource
 import statistics
 import subprocess
 
 from tools import files
 from tools.bench import packing
-from tools.bench.stepping import BIN, ROOT, Engine, Lammps, Yade, make_bed
+from tools.bench.stepping import BIN, ENV, ROOT, Engine, Lammps, Yade, make_bed
 
 # What the law has to move, at least: of a contact its seven history values read and written, its touch flag read and
 # written, the neighbour's index; of a grain x, v, omega, radius, mass, type once, force and torque read and written.
 CONTACT_BYTES = 2 * 7 * 8 + 2 * 4 + 4
 GRAIN_BYTES = 11 * 8 + 4 + 2 * 6 * 8
+PATH_ENV = dict(ENV, PATH=f"{BIN}:{os.environ['PATH']}")
 
 
 def law_time(t):
@@ -75,23 +77,28 @@ def ranks(folder, quick, pairs):
     }
 
 
-def yade(folder, quick, pairs):
-    """The stirred drum of yade/stir in both engines, one core each: how often as many particle-steps a second."""
+def beside_yade(folder, quick, pairs, copies, steps, warm):
+    """The stirred drum of yade/stir, this many times as long, in both engines, one core each."""
+    import numpy
+
     from tools.yade import drum, runs
 
     case = files.read_json(ROOT / "yade/stir/case.json", "bring it back")
     where = pathlib.Path(folder)
     runs.meshes(case, where)
-    grains = drum.random_grains(case, 1)
-    bed = runs.liggghts(str(BIN / "liggghts"), case, where, grains, turning=False)
+    bed = runs.liggghts(str(BIN / "liggghts"), case, where, drum.random_grains(case, 1), turning=False)
+    length = case["drum"]["length"]
+    case = dict(case, grains=copies * case["grains"], drum=dict(case["drum"], length=copies * length))
+    # grains keep off the ends, so that copies of the bed do not overlap where the ends were
+    bed = numpy.concatenate([bed + [k * length, 0, 0] for k in range(copies)])
+    runs.meshes(case, where)
     runs.liggghts_files(case, where, bed, turning=True)
     (where / "run.json").write_text(json.dumps(runs.yade_run(case, where, bed)))
     ours, theirs = Engine(folder, script="../yade/stir/in.drum", turning=2), Yade(folder)
-    quarter = round(case["rowsPerTurn"] * case["stepsPerRow"] / (16 if quick else 4))
-    ours.step(quarter), theirs.step(quarter)
+    ours.step(warm), theirs.step(warm)
     faster, a, b = [], [], []
     for _ in range(pairs):
-        a.append(ours.step(200)), b.append(theirs.step(50))
+        a.append(ours.step(steps[0])), b.append(theirs.step(steps[1]))
         faster.append(b[-1]["run_s"] / b[-1]["steps"] / (a[-1]["run_s"] / a[-1]["steps"]))
     for engine in (ours, theirs):
         engine.quit()
@@ -102,15 +109,80 @@ def yade(folder, quick, pairs):
     def speed(ts):
         return statistics.median(case["grains"] * t["steps"] / t["run_s"] for t in ts)
 
+    return dict(
+        spread(faster),
+        grains=case["grains"],
+        particle_steps_per_s=speed(a),
+        yade_particle_steps_per_s=speed(b),
+        contacts=[mean(a, "pair_contacts"), mean(a, "wall_contacts")],
+        yade_contacts=[mean(b, "pair_contacts"), mean(b, "wall_contacts")],
+    )
+
+
+def yade(folder, quick, pairs):
+    """How often as many particle-steps a second as Yade, 600 grains."""
+    quarter = 36 * 352 // (16 if quick else 4)
+    return {"particle_steps_over_yade": beside_yade(folder, quick, pairs, 1, (200, 50), quarter)}
+
+
+def yade_10k(folder, quick, pairs):
+    """The same with 10 200 grains."""
     return {
-        "particle_steps_over_yade": dict(
-            spread(faster),
-            grains=case["grains"],
-            particle_steps_per_s=speed(a),
-            yade_particle_steps_per_s=speed(b),
-            contacts=[mean(a, "pair_contacts"), mean(a, "wall_contacts")],
-            yade_contacts=[mean(b, "pair_contacts"), mean(b, "wall_contacts")],
+        "particle_steps_over_yade_10k": beside_yade(folder, quick, pairs, 2 if quick else 17, (50, 20), 36 * 352 // 16)
+    }
+
+
+def grid(folder, quick, pairs):
+    """Core minutes of the 4 x 4 grid of speeds and fills in cases/mixer, 8 mm, 6 turns each, by the processor's clock.
+
+    The cost of a step is taken at the least and the greatest fill and is linear in the fill between them; that of a
+    turn is its steps times that."""
+    speeds, fills, turns = (0.48, 0.85, 1.21, 1.58), (0.10, 0.15, 0.20, 0.25), 6
+
+    def run(fill, length):
+        name = pathlib.Path(folder, f"grid_{fill}_{length}")
+        words = [BIN / "liggghts", "-log", "none", "-in", "in.mixer", "-var", "run", name, "-var", "fill", fill]
+        words += [
+            "-var",
+            "turns",
+            length,
+            "-var",
+            "restartTurns",
+            0,
+            "-var",
+            "grainDiameter",
+            0.012 if quick else 0.008,
+        ]
+        before = resource.getrusage(resource.RUSAGE_CHILDREN)
+        subprocess.run(
+            [str(w) for w in words], cwd=ROOT / "cases/mixer", env=PATH_ENV, check=True, stdout=subprocess.DEVNULL
         )
+        after = resource.getrusage(resource.RUSAGE_CHILDREN)
+        head = dict(
+            line[2:].split("=", 1) for line in (name / "torque.csv").read_text().splitlines() if line.startswith("# ")
+        )
+        return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime, int(head["steps_per_turn"])
+
+    short, long = 0.1, 0.2 if quick else 0.4
+    step, settle = {}, {}
+    for fill in (fills[0], fills[-1]):
+        (few, perTurn), (many, _) = run(fill, short), run(fill, long)
+        step[fill] = (many - few) / ((long - short) * perTurn)
+        settle[fill] = few - short * perTurn * step[fill]
+
+    def between(values, fill):
+        share = (fill - fills[0]) / (fills[-1] - fills[0])
+        return values[fills[0]] * (1 - share) + values[fills[-1]] * share
+
+    seconds = sum(between(settle, fill) + turns * perTurn / n * between(step, fill) for n in speeds for fill in fills)
+    return {
+        "grid_8mm_core_minutes": {
+            "minutes": seconds / 60,
+            "us_per_step": [1e6 * step[fill] for fill in step],
+            "steps_per_turn": perTurn,
+            "settle_s": list(settle.values()),
+            "diameter": 0.012 if quick else 0.008,
+        }
     }
 
 
@@ -199,8 +271,12 @@ def memory(folder, quick, pairs):
     }
 
 
-PARTS = {part.__name__: part for part in (law, ranks, yade, lammps, size, triangles, memory)}
-PACKAGES = {"yade": ["yade"], "lammps": ["lammps"]}  # lists in scripts/packages beyond those of every part
+PARTS = {part.__name__: part for part in (law, ranks, yade, yade_10k, lammps, size, triangles, memory, grid)}
+PACKAGES = {
+    "yade": ["yade"],
+    "yade_10k": ["yade"],
+    "lammps": ["lammps"],
+}  # lists in scripts/packages beyond those of every part
 
 
 def machine():

@@ -70,7 +70,9 @@ def liggghts_files(case, folder, grains, turning):
     }
     (folder / "case.par").write_text("".join(f"variable {k} index {v}\n" for k, v in values.items()))
     half = 3 * case["drum"]["radius"]
-    box = "".join(f"{-half} {half} {a}lo {a}hi\n" for a in "xyz")
+    # sides and blades reach beyond the drum's ends by 0.6 of its length
+    along = (min(-half, -0.7 * case["drum"]["length"]), max(half, 1.7 * case["drum"]["length"]))
+    box = "".join(f"{low} {high} {a}lo {a}hi\n" for a, (low, high) in zip("xyz", (along, (-half, half), (-half, half))))
     atoms = "".join(
         f"{i + 1} 1 {2 * case['radius']!r} {case['density']} {p[0]!r} {p[1]!r} {p[2]!r}\n"
         for i, p in enumerate(grains.tolist())
