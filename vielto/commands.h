@@ -14,6 +14,7 @@ void add_predict_command(CLI::App& app);
 void add_compare_command(CLI::App& app);
 void add_gap_command(CLI::App& app);
 void add_import_command(CLI::App& app);
+void add_import_logger(CLI::App& import);
 void add_import_surface(CLI::App& import);
 void add_report_command(CLI::App& app);
 void add_rigs_command(CLI::App& app);

@@ -180,6 +180,7 @@ void add_import_command(CLI::App& app) {
   auto o = std::make_shared<ImportOptions>();
   CLI::App* import = app.add_subcommand("import", "results of other programs as rows of an observation table");
   import->require_subcommand(1);
+  add_import_logger(*import);
   add_import_surface(*import);
   CLI::App* command = import->add_subcommand(
       "yade",
