@@ -88,11 +88,11 @@ def look_up(page, command, parameters):
     words = command.split("#")[0].split()
     while words and (re.fullmatch(r"\w+=\S*", words[0]) or words[0] in ("xvfb-run", "-a", "export")):
         words.pop(0)
-    if not words or words[0] in ("cd", "git", "cmake", "ctest"):
+    if not words or words[0] in ("cd", "cp", "git", "cmake", "ctest"):
         return 0
     if words[0] == "sbatch":
         words.pop(0)
-    if words[0] in ("liggghts", "mpirun") or words[0].startswith("slurm/"):
+    if words[0] in ("liggghts", "liggghts-vielto", "mpirun") or words[0].startswith("slurm/"):
         for name in re.findall(r"-var (\w+)", command):
             assert name in parameters, f"{page}: {command}: no rig knows -var {name}"
         for script in re.findall(r"-in (\S+)", command):
