@@ -175,7 +175,11 @@ Transform read_transform(const TomlTable& t) {
 
 }  // namespace
 
-bool VarChange::acts_on(const std::string& rig) const { return std::find(rigs.begin(), rigs.end(), rig) != rigs.end(); }
+bool VarChange::acts_on(const std::string& rig) const {
+  const auto named = [&](const std::string& one) { return std::find(rigs.begin(), rigs.end(), one) != rigs.end(); };
+  const RigDescription* described = find_rig(rig);
+  return named(rig) || (described && named(described->effects_of));
+}
 
 bool VarChange::needs_base() const {
   return rule == VarRule::offset || rule == VarRule::scale || rule == VarRule::power10 || rule == VarRule::divide;

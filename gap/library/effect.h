@@ -41,6 +41,7 @@ struct VarChange {
   bool whole = false;
   std::string word;
 
+  // Also on a rig that takes the effects of one of `rigs` (cases/rigs.toml, effects_of).
   bool acts_on(const std::string& rig) const;
   // The text after `-var name`, for the baseline value `base` (not used by value, word, switch).
   std::string text(double base, double strength) const;

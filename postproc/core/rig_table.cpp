@@ -49,7 +49,7 @@ std::map<std::string, std::string> read_conditions(const TomlTable& t) {
 
 RigDescription read_rig(const TomlTable& t, const std::string& name, const std::string& table) {
   t.only({"title", "script", "parameters", "wall", "includes", "record", "post", "result", "conditions", "observables",
-          "work", "reference"});
+          "work", "reference", "effects_of"});
   const auto or_empty = [&](const char* key) { return t.has(key) ? t.text(key) : std::string(); };
   RigDescription rig;
   rig.name = name;
@@ -65,6 +65,7 @@ RigDescription read_rig(const TomlTable& t, const std::string& name, const std::
   rig.post = or_empty("post");
   rig.result = or_empty("result");
   rig.work = or_empty("work");
+  rig.effects_of = or_empty("effects_of");
   if (t.has("reference")) rig.reference = t.table("reference").texts("numbers");
   if (t.has("conditions")) rig.vars = read_conditions(t.table("conditions"));
   return rig;
@@ -80,6 +81,11 @@ void add_tables(Table& table, const TomlTable& file, const std::string& path) {
                     [&](const RigDescription& r) { return r.name == name; }))
       file.refuse(name, "is the name of a rig that there is", "name it otherwise");
     table.apparatuses.push_back(read_rig(file.table(name), name, path));
+    const std::string& like = table.apparatuses.back().effects_of;
+    if (!like.empty() && std::none_of(table.apparatuses.begin(), table.apparatuses.end() - 1,
+                                      [&](const RigDescription& r) { return r.is_rig() && r.name == like; }))
+      file.table(name).refuse("effects_of", fmt::format("'{}' is no rig above this one", like),
+                              "name one that `vielto rigs` lists");
   }
 }
 
@@ -175,6 +181,7 @@ nlohmann::ordered_json rig_table_json() {
       one["result"] = r.result;
       one["work"] = r.work;
       one["reference"] = r.reference;
+      one["effects_of"] = r.effects_of;
       one["files"] = json::array();
       for (const auto* files : {&r.parameters, &r.includes})
         for (const std::string& file : *files) one["files"].push_back(r.path(file, ""));

@@ -27,7 +27,8 @@ struct RigDescription {
   std::map<std::string, std::string> vars;  // condition -> its -var
   std::string work;
   std::vector<std::string> reference;
-  std::string table;  // file that states it; empty: the table that is compiled in
+  std::string effects_of;  // rig whose effects act on this one too; empty: none
+  std::string table;       // file that states it; empty: the table that is compiled in
 
   bool is_rig() const { return !script.empty(); }
   // A path of the table, for `root`, the folder that holds cases/ and materials/.

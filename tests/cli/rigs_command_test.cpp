@@ -136,6 +136,29 @@ TEST_F(Rigs, AnOwnRigIsPlannedWithAnEffectOfItsOwn) {
   expect_refused("gap plan lib/own/plan.toml --out study2.csv", "rigs: 'hopper' is no rig; write one of mixer");
 }
 
+// wall_friction's file names the heap; a hopper that takes the heap's effects has the wall's angle changed by it.
+TEST_F(Rigs, AnOwnRigTakesTheEffectsOfAnother) {
+  std::string text = kHopper;
+  text.replace(text.find("title"), 0, "effects_of = \"repose\"\n");
+  write("like.toml", text);
+  write("hopper.par", "variable volume index 0.01 # m3\nvariable wall_frictionAngle index 20 # deg\n");
+  write("lib/own/plan.toml",
+        "seeds = 6\n[[rig]]\nname = \"hopper\"\nconditions = [{moisture = 0.1}]\n[[rig.effect]]\n"
+        "name = \"wall_friction\"\nstrengths = [4]\nat = [1]\n");
+  fs::create_directories(folder_ / "lib/effects");
+  const fs::path libraries = fs::path(VIELTO_SOURCE_DIR) / "libraries";
+  fs::copy(libraries / "effects/wall_friction.toml", folder_ / "lib/effects/wall_friction.toml");
+  fs::copy(libraries / "diagnosis.toml", folder_ / "lib/diagnosis.toml");
+  ASSERT_EQ(vielto("gap plan lib/own/plan.toml --rigs like.toml --out study.csv"), 0) << read("err");
+  EXPECT_NE(read("study.csv").find("hopper1_wall_friction4_s301,hopper,301,28,0.1"), std::string::npos)
+      << read("study.csv");
+  expect_refused("gap plan lib/own/plan.toml --rigs own.toml --out study2.csv",
+                 "name: does nothing in hopper; leave it out");
+  text.replace(text.find("repose"), 6, "sieve");
+  write("like.toml", text);
+  expect_refused("rigs --rigs like.toml", "column effects_of: 'sieve' is no rig above this one");
+}
+
 TEST_F(Rigs, AFaultyTableIsRefusedWithFileLineAndMend) {
   const auto with = [&](const std::string& from, const std::string& to) {
     std::string text = kHopper;
