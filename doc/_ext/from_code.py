@@ -6,6 +6,7 @@
     {parameters} cases/mixer/mixer.par      the lines of a parameter file or card: name, value, unit, (range,) u, source
     {effects} libraries/effects             one row an effect file
     {observables} cases/rigs.toml           one row an observable of the table of rigs
+    {rig-parameters} cases/rigs.toml        a section a rig of the table: its title and its own parameter file
 """
 import os
 import pathlib
@@ -89,6 +90,19 @@ class Observables(FromFile):
         return [table(["apparatus", "observable", "unit", "meaning"], rows, code=2)]
 
 
+class RigParameters(FromFile):
+    def run(self):
+        lines = []
+        for entry in tomllib.loads(self.path().read_text(encoding="utf-8")).values():
+            if "script" in entry:
+                path = pathlib.PurePath(self.arguments[0]).parent / entry["parameters"][0]
+                title = entry["title"][0].upper() + entry["title"][1:]
+                lines += [f"## {title}", "", f"```{{parameters}} {path}", "```", ""]
+        holder = nodes.Element()
+        self.state.nested_parse(StringList(lines), self.lineno, holder, match_titles=True)
+        return holder.children
+
+
 class FromProgram(Directive):
     """A directive of one argument, a program in build/bin and words for it."""
 
@@ -132,6 +146,7 @@ def setup(app):
     app.add_directive("parameters", Parameters)
     app.add_directive("effects", Effects)
     app.add_directive("observables", Observables)
+    app.add_directive("rig-parameters", RigParameters)
     app.add_directive("command-help", CommandHelp)
     app.add_directive("program-page", ProgramPage)
     return {"parallel_read_safe": True}
