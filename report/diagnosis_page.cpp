@@ -327,6 +327,9 @@ void add_summary(const json& d, Page& page) {
                           percent(absorbable))
             : fmt::format("{} of the gap could be absorbed by recalibration, {} needs something new.",
                           percent(absorbable), percent(1 - absorbable))});
+  if (d.contains("why_it_is_off"))
+    page.summary.push_back(
+        {fmt::format("Without the reference, why the simulation is off: {}", text(d["why_it_is_off"], "sentence"))});
   if (const std::string close = close_call(d.at("log_odds")); !close.empty())
     page.summary.push_back({close, Paragraph::Tone::warning});
   const json trends = d.value("trends", json::array());

@@ -44,8 +44,9 @@ struct GapOptions {
   std::string table, out, candidates, sealed, root = ".", runs;
   std::string apparatus = "mixer", observable = "power";
   std::map<std::string, std::vector<double>> conditions;
-  std::vector<std::string> tables, ignored, only, without, known, vars;
-  double runs_per_observation = 1;
+  std::string reference;
+  std::vector<std::string> tables, ignored, only, reference_only, without, known, vars;
+  double runs_per_observation = 1, transfer = 0;
   std::uint64_t seed = 1;
   int seeds = 1, draws = 0, jobs = 1;
   bool extrapolate = false, no_discrepancy = false, run = false;
@@ -59,7 +60,9 @@ struct GapOptions {
     o.known = known_effects(known, without);
     return o;
   }
-  QuestionOptions question() const { return {files, table, only, without, emulator(), seed, draws}; }
+  QuestionOptions question() const {
+    return {files, table, only, without, reference, reference_only, transfer, emulator(), seed, draws};
+  }
   std::string candidate_file() const {
     return candidates.empty() ? (fs::path(files.completed().settings).parent_path() / "next_tests.toml").string()
                               : candidates;
@@ -118,13 +121,15 @@ void run_isolability(const GapOptions& o) {
     write_whole_file((out / "isolability.csv").string(), isolability_csv(i));
     write_whole_file((out / "isolability.svg").string(), isolability_svg(i));
   }
-  for (std::size_t a = 0; a < i.effects.size(); ++a)
-    fmt::print("{:<18} {:>6.1f} sd from nothing{}\n", i.effects[a], i.detectability[static_cast<Eigen::Index>(a)],
-               i.detectable(i.effects[a]) ? "" : "  not detectable");
-  for (std::size_t a = 0; a < i.effects.size(); ++a) {
-    std::vector<std::string> others = i.groups[a];
-    others.erase(std::remove(others.begin(), others.end(), i.effects[a]), others.end());
-    if (!others.empty()) fmt::print("{} is not told apart from {}\n", i.effects[a], fmt::join(others, ", "));
+  fmt::print("{:<18}{:>12}{:>12}{:>14}{:>12}  not told apart at its farthest from\n", "effect", "farthest at", "sd",
+             "detectable", "isolable");
+  const auto from = [](double s) { return std::isnan(s) ? std::string("never") : fmt::format("from {:.3g}", s); };
+  for (const std::string& e : i.effects) {
+    const double s = i.farthest(e);
+    std::vector<std::string> others = i.group_of(e, s);
+    others.erase(others.begin());
+    fmt::print("{:<18}{:>12.3g}{:>12.1f}{:>14}{:>12}  {}\n", e, s, i.from_nothing(e, s), from(i.detectable_from(e)),
+               from(i.isolable_from(e)), others.empty() ? "-" : fmt::format("{}", fmt::join(others, ", ")));
   }
   for (const std::string& note : q.model.notes) fmt::print("note: {}\n", note);
 }
@@ -135,13 +140,14 @@ std::string title_of(const GapOptions& o) {
 
 Diagnosis diagnosis_of(const GapOptions& o, const Question& q, const Isolability& i) {
   Diagnosis d = diagnose(q.model, threshold_of(o, q), q.inputs.settings);
+  d.of_a_change = q.reference.has_value();
   if (d.threshold.draws < q.inputs.settings.draws)
     d.notes.push_back(fmt::format("the threshold rests on {} draws, not on the settings' {}", d.threshold.draws,
                                   q.inputs.settings.draws));
   if (d.check_rows == 0) d.notes.push_back("the table has no check rows: how far the gap shrinks cannot be proved");
   d.predicted = predicted_shrink(q.model, d, i);
   if (d.verdict == Verdict::ambiguous || d.verdict == Verdict::unknown)
-    d.next_tests = next_tests(q.inputs, q.fit_table(), o.emulator(), d, o.candidate_file(), o.without, d.notes);
+    d.next_tests = next_tests(q, d, o.candidate_file(), d.notes);
   return d;
 }
 
@@ -153,6 +159,20 @@ json provenance_of(const GapOptions& o, const Question& q) {
   return p;
 }
 
+// The other answer: not what has changed, but why the simulation is off.
+json without_reference(const GapOptions& o) {
+  QuestionOptions options = o.question();
+  options.reference.clear();
+  options.reference_only.clear();
+  const Question q(options);
+  const Diagnosis d = diagnose(q.model, q.threshold(), q.inputs.settings);
+  json j = {{"verdict", text_of(d.verdict)}, {"named", d.named}, {"group", d.group}};
+  j["probabilities"] = json::object();
+  for (const ModelEvidence& m : d.models) j["probabilities"][m.name()] = m.probability;
+  j["sentence"] = verdict_sentence(d);
+  return j;
+}
+
 void write_answer(const GapOptions& o, const Question& q, const Diagnosis& d, const json& provenance) {
   json j = diagnosis_json(d, provenance);
   // a long group would bury the page: its two likeliest members
@@ -160,11 +180,16 @@ void write_answer(const GapOptions& o, const Question& q, const Diagnosis& d, co
   shown.resize(std::min<std::size_t>(shown.size(), 2));
   j["sources"] = sources_json(q.inputs.library, shown);
   add_points(j, points_of(q.model, d));
+  if (q.reference) {
+    j["reference"] = q.reference_json();
+    j["why_it_is_off"] = without_reference(o);
+  }
   const fs::path out = make_out(o.out);
   const std::string page = diagnosis_page(j, title_of(o));
   write_json(out / "diagnosis.json", j);
   write_whole_file((out / "diagnosis.html").string(), page);
   fmt::print("{}\n", verdict_sentence(d));
+  if (q.reference) fmt::print("Without the reference: {}\n", j["why_it_is_off"]["sentence"].get<std::string>());
   for (const std::string& note : d.notes) fmt::print("note: {}\n", note);
 }
 
@@ -216,9 +241,7 @@ void run_confirm(const GapOptions& o) {
   // The prediction is on record before the runs begin.
   write_answer(o, q, d, provenance);
   run_plan(plan, o.jobs);
-  GapOptions single = o;
-  single.runs_per_observation = 1;
-  d.shrink = measured_shrink(plan, q.inputs, q.model, Question(single.question()).model.seed.diagonal());
+  d.shrink = measured_shrink(plan, q);
   provenance["liggghts"] = version_of_first_run(plan);
   write_answer(o, q, d, provenance);
 }
@@ -226,7 +249,8 @@ void run_confirm(const GapOptions& o) {
 void run_next(const GapOptions& o) {
   const Question q(o.question());
   Diagnosis d = diagnose(q.model, threshold_of(o, q), q.inputs.settings);
-  d.next_tests = next_tests(q.inputs, q.fit_table(), o.emulator(), d, o.candidate_file(), o.without, d.notes);
+  d.of_a_change = q.reference.has_value();
+  d.next_tests = next_tests(q, d, o.candidate_file(), d.notes);
   fmt::print("{}\n{:<22}{:>7}{:>10}{:>10}{:>12}  separates\n", verdict_sentence(d), "test", "hours", "sd now",
              "sd then", "sd an hour");
   for (const NextTest& t : d.next_tests)
@@ -321,6 +345,16 @@ void add_question_options(CLI::App* c, const Options& o) {
   c->add_option("TABLE", o->table, "observation table")->required();
   add_library_options(c, o);
   c->add_option("--only", o->only, "rows that satisfy this only, such as wall=B (repeatable)");
+  CLI::Option* reference =
+      c->add_option("--reference", o->reference,
+                    "observation table of the same machine where the model is validated: what has changed since?");
+  c->add_option("--reference-only", o->reference_only, "rows of the reference, as --only (repeatable)")
+      ->needs(reference);
+  c->add_option("--transfer", o->transfer,
+                "part of what calibration and contact law leave open that may have changed too (a machine rebuilt)")
+      ->needs(reference)
+      ->check(finite() & CLI::Range(0.0, 10.0))
+      ->capture_default_str();
   c->add_option("--without", o->without, "effects that are no candidates")->delimiter(',');
   c->add_option("--known", o->known,
                 "EFFECT=STRENGTH that the apparatus surely has: part of the baseline, no candidate (repeatable)");

@@ -16,6 +16,7 @@
 #include "core/bad_input.h"
 #include "core/seal.h"
 #include "core/sha256.h"
+#include "gap/question/sealed.h"
 
 namespace vielto::gap {
 namespace {
@@ -33,7 +34,9 @@ json read_json(const fs::path& path, const char* mend) {
 
 struct Scored {
   json truth, answer;
-  Names effects;  // true ones, sorted
+  Names effects;            // true ones, sorted
+  Names group;              // what can stand in for the one true effect at its strength
+  bool detectable = false;  // at its strength
   std::string kind() const { return truth["kind"]; }
   bool strong() const { return truth["level"] == "strong"; }
   std::string verdict() const { return answer["verdict"]; }
@@ -46,23 +49,40 @@ struct Scored {
   }
 };
 
-std::vector<Scored> read_cases(const fs::path& folder, const fs::path& answers, const std::string& fingerprint,
-                               std::optional<std::uint64_t> shuffle) {
+// The sealed truths, each checked against its seal.
+std::vector<json> read_truths(const fs::path& folder) {
   std::ifstream seals(folder / "seals.sha256");
   if (!seals)
     throw BadInput((folder / "seals.sha256").string(), 0, "cannot be read", "name a folder made by gap-withhold");
   std::vector<json> truths;
-  std::vector<std::string> ids;
   std::string hash, file;
   for (int line = 1; seals >> hash >> file; ++line) {
     if (!fs::exists(folder / file) || sha256_of_file((folder / file).string()) != hash)
       throw BadInput((folder / "seals.sha256").string(), line, file + " is not what its seal says",
                      "bring the sealed truth back");
     truths.push_back(read_json(folder / file, "bring the sealed truth back"));
-    ids.push_back(truths.back()["case"]);
   }
   if (truths.empty())
     throw BadInput((folder / "seals.sha256").string(), 0, "seals nothing", "make cases with gap-withhold");
+  return truths;
+}
+
+// An answer without a removed effect was judged by the sealed threshold, and by
+// no other.
+void check_fingerprint(const json& answer, const std::string& path, const std::string& fingerprint) {
+  const json& made = answer["provenance"];
+  if (made.is_object() && made.value("without", json::array()).empty() &&
+      made.value("fingerprint", fingerprint) != fingerprint)
+    throw BadInput(path, 0, "was made for other rows or another library than were sealed",
+                   "diagnose the case with --sealed, or name the isolability.json that it "
+                   "was made with");
+}
+
+std::vector<Scored> read_cases(const fs::path& folder, const fs::path& answers, const json& sealed,
+                               const Isolability& isolability, std::optional<std::uint64_t> shuffle) {
+  std::vector<json> truths = read_truths(folder);
+  std::vector<std::string> ids;
+  for (const json& truth : truths) ids.push_back(truth["case"]);
   if (shuffle) {
     std::mt19937_64 random(*shuffle);
     std::shuffle(truths.begin(), truths.end(), random);
@@ -74,13 +94,12 @@ std::vector<Scored> read_cases(const fs::path& folder, const fs::path& answers, 
     c.answer = read_json(answers / ids[i] / "diagnosis.json", "diagnose every case into ANSWERS/CASE");
     for (const auto& entry : c.truth["effects"].items()) c.effects.push_back(entry.key());
     std::sort(c.effects.begin(), c.effects.end());
-    // an answer without a removed effect was judged by the sealed threshold, and by no other
-    const json& made = c.answer["provenance"];
-    if (made.is_object() && made.value("without", json::array()).empty() &&
-        made.value("fingerprint", fingerprint) != fingerprint)
-      throw BadInput((answers / ids[i] / "diagnosis.json").string(), 0,
-                     "was made for other rows or another library than were sealed",
-                     "diagnose the case with --sealed, or name the isolability.json that it was made with");
+    check_fingerprint(c.answer, (answers / ids[i] / "diagnosis.json").string(), sealed.value("fingerprint", ""));
+    if (c.effects.size() == 1) {
+      const double strength = c.truth["effects"][c.effects[0]]["strength"];
+      c.group = isolability.group_of(c.effects[0], strength);
+      c.detectable = isolability.detectable(c.effects[0], strength);
+    }
     cases.push_back(c);
   }
   return cases;
@@ -123,165 +142,192 @@ Wilson wilson(int successes, int trials) {
   return {p, std::max(0.0, centre - half), std::min(1.0, centre + half)};
 }
 
-json score(const std::string& folder, const std::string& answers, const std::string& isolability,
-           std::optional<std::uint64_t> shuffle) {
-  if (!seal_holds(isolability))
-    throw BadInput(isolability, 0, "is not what its seal says", "bring the sealed file back");
-  const json sealed = read_json(isolability, "make it with vielto gap isolability");
-  const Names detectable = sealed["detectable"];
-  std::map<std::string, Names> group;
-  for (const auto& [name, members] : sealed["groups"].items()) group[name] = members.get<Names>();
-  const std::vector<Scored> cases = read_cases(folder, answers, sealed.value("fingerprint", ""), shuffle);
+namespace {
 
-  json result = {{"schema", 1}, {"cases", cases.size()}};
-  const auto pick = [&](const std::function<bool(const Scored&)>& counts) {
-    Pick picked;
-    for (const Scored& c : cases)
-      if (counts(c)) picked.push_back(&c);
-    return picked;
-  };
-  const auto proportion = [&](json& into, const char* key, const Pick& picked,
-                              const std::function<bool(const Scored&)>& success) {
-    int n = 0;
-    for (const Scored* c : picked) n += success(*c);
-    const Wilson w = wilson(n, static_cast<int>(picked.size()));
-    into[key] = picked.empty() ? json() : json(w.value);
-    into[std::string(key) + "_low95"] = w.low95;
-    into[std::string(key) + "_high95"] = w.high95;
-    into[std::string(key) + "_n"] = picked.size();
-  };
-  const auto right = [](const Scored& c) { return c.verdict() == "named" && c.named() == c.effects; };
-  const auto in_group = [&](const Scored& c) {
-    const Names& own = group[c.effects[0]];
-    if (c.verdict() == "named") return c.named().size() == 1 && holds(own, c.named()[0]);
-    if (c.verdict() != "ambiguous") return false;
-    const Names stated = c.answer["group"];
-    return holds(stated, c.effects[0]) &&
-           std::all_of(stated.begin(), stated.end(), [&](const std::string& s) { return holds(own, s); });
-  };
-  const auto wrong = [](const Scored& c) {
-    const Names names = c.named();
-    return std::any_of(names.begin(), names.end(), [&](const std::string& s) { return !holds(c.effects, s); });
-  };
-  const auto known = [&](const Scored& c) { return c.kind() == "known"; };
-  proportion(result, "right", pick([&](const Scored& c) {
-               return known(c) && c.strong() && group[c.effects[0]].size() == 1 && holds(detectable, c.effects[0]);
-             }),
-             right);
-  proportion(result, "in_group",
-             pick([&](const Scored& c) { return known(c) && c.strong() && holds(detectable, c.effects[0]); }),
-             in_group);
-  proportion(result, "wrong_name", pick([&](const Scored& c) { return c.kind() != "none" && c.kind() != "removed"; }),
-             wrong);
-  proportion(result, "false_alarm", pick([](const Scored& c) { return c.kind() == "none"; }),
-             [](const Scored& c) { return c.verdict() != "no_gap"; });
-  const Pick removed = pick([](const Scored& c) { return c.kind() == "removed"; });
-  proportion(result, "unknown_found", removed, [](const Scored& c) { return c.verdict() == "unknown"; });
-  proportion(result, "removed_named", removed, [](const Scored& c) { return c.verdict() == "named"; });
-  proportion(result, "coverage90",
-             pick([](const Scored& c) { return c.kind() == "prior" && c.answer["strength"].contains(c.effects[0]); }),
-             [](const Scored& c) {
-               const json& s = c.answer["strength"][c.effects[0]];
-               const double truth = c.truth["effects"][c.effects[0]]["strength"];
-               return s["low90"].get<double>() <= truth && truth <= s["high90"].get<double>();
-             });
+using Counts = std::function<bool(const Scored&)>;
 
-  const auto pooled = [&](const char* key, const Pick& picked, const std::function<double(const Pick&)>& statistic) {
-    const auto [low, high] = interval(picked, statistic);
-    result[key] = picked.empty() ? json() : json(statistic(picked));
-    result[std::string(key) + "_low95"] = low;
-    result[std::string(key) + "_high95"] = high;
-    result[std::string(key) + "_n"] = picked.size();
-  };
-  // Measured by re-simulation where that was done, else what the emulator predicts.
-  const auto shrink = [](const Scored& c) {
-    return c.answer["shrink"].is_null() ? c.answer["shrink_predicted"] : c.answer["shrink"];
-  };
-  const auto square = [](double x) { return x * x; };
-  // Sums of squares with the noise taken out; a sum below 0 is 0. A case that was said to have no gap adds nothing to
-  // the simulation: what its gap was before stands on both sides.
-  const auto part = [&](const char* key) {
-    return [key, square](const Scored& c, const json& s) {
-      if (s.is_null()) return square(c.truth["check_before"].get<double>());
-      return s.contains("mean_squares") ? s["mean_squares"][key].get<double>() : square(s[key].get<double>());
-    };
-  };
-  const auto closes = [&](const Pick& picked, const std::function<double(const Scored&, const json&)>& what) {
-    double after = 0, recalibrated = 0;
-    for (const Scored* c : picked) {
-      const json s = shrink(*c);
-      recalibrated += part("recalibrated")(*c, s);
-      after += what(*c, s);
-    }
-    return recalibrated > 0 ? 1 - std::sqrt(std::max(0.0, after) / recalibrated) : 0.0;
-  };
-  const Pick strong = pick([&](const Scored& c) { return known(c) && c.strong(); });
+Pick pick(const std::vector<Scored>& cases, const Counts& counts) {
+  Pick picked;
+  for (const Scored& c : cases)
+    if (counts(c)) picked.push_back(&c);
+  return picked;
+}
+
+Counts kind(const char* name) {
+  return [name](const Scored& c) { return c.kind() == name; };
+}
+
+void add_proportion(json& into, const std::string& key, const Pick& picked, const Counts& success) {
+  int n = 0;
+  for (const Scored* c : picked) n += success(*c);
+  const Wilson w = wilson(n, static_cast<int>(picked.size()));
+  into[key] = picked.empty() ? json() : json(w.value);
+  into[key + "_low95"] = w.low95;
+  into[key + "_high95"] = w.high95;
+  into[key + "_n"] = picked.size();
+}
+
+void add_pooled(json& into, const std::string& key, const Pick& picked,
+                const std::function<double(const Pick&)>& statistic) {
+  const auto [low, high] = interval(picked, statistic);
+  into[key] = picked.empty() ? json() : json(statistic(picked));
+  into[key + "_low95"] = low;
+  into[key + "_high95"] = high;
+  into[key + "_n"] = picked.size();
+}
+
+bool is_right(const Scored& c) { return c.verdict() == "named" && c.named() == c.effects; }
+
+bool is_in_group(const Scored& c) {
+  if (c.verdict() == "named") return c.named().size() == 1 && holds(c.group, c.named()[0]);
+  if (c.verdict() != "ambiguous") return false;
+  const Names stated = c.answer["group"];
+  return holds(stated, c.effects[0]) &&
+         std::all_of(stated.begin(), stated.end(), [&](const std::string& s) { return holds(c.group, s); });
+}
+
+bool is_wrong(const Scored& c) {
+  const Names names = c.named();
+  return std::any_of(names.begin(), names.end(), [&](const std::string& s) { return !holds(c.effects, s); });
+}
+
+bool is_covered(const Scored& c) {
+  const json& s = c.answer["strength"][c.effects[0]];
+  const double truth = c.truth["effects"][c.effects[0]]["strength"];
+  return s["low90"].get<double>() <= truth && truth <= s["high90"].get<double>();
+}
+
+void add_rates(json& result, const std::vector<Scored>& cases) {
+  const auto strong = [](const Scored& c) { return c.kind() == "known" && c.strong(); };
+  add_proportion(result, "right",
+                 pick(cases, [&](const Scored& c) { return strong(c) && c.detectable && c.group.size() == 1; }),
+                 is_right);
+  add_proportion(result, "in_group", pick(cases, [&](const Scored& c) { return strong(c) && c.detectable; }),
+                 is_in_group);
+  add_proportion(result, "wrong_name",
+                 pick(cases, [](const Scored& c) { return c.kind() != "none" && c.kind() != "removed"; }), is_wrong);
+  add_proportion(result, "false_alarm", pick(cases, kind("none")),
+                 [](const Scored& c) { return c.verdict() != "no_gap"; });
+  const Pick removed = pick(cases, kind("removed"));
+  add_proportion(result, "unknown_found", removed, [](const Scored& c) { return c.verdict() == "unknown"; });
+  add_proportion(result, "removed_named", removed, [](const Scored& c) { return c.verdict() == "named"; });
+  add_proportion(
+      result, "coverage90",
+      pick(cases, [](const Scored& c) { return c.kind() == "prior" && c.answer["strength"].contains(c.effects[0]); }),
+      is_covered);
+}
+
+double square(double x) { return x * x; }
+
+// Measured by re-simulation where that was done, else what the emulator predicts.
+const json& shrink(const Scored& c) {
+  return c.answer["shrink"].is_null() ? c.answer["shrink_predicted"] : c.answer["shrink"];
+}
+
+// A mean square with the noise taken out. A case that was said to have no gap adds nothing to the simulation: what its
+// gap was before stands on both sides.
+double mean_square(const Scored& c, const char* key) {
+  const json& s = shrink(c);
+  if (s.is_null()) return square(c.truth["check_before"].get<double>());
+  return s.contains("mean_squares") ? s["mean_squares"][key].get<double>() : square(s[key].get<double>());
+}
+
+// Sums of squares; a sum below 0 is 0.
+double closes(const Pick& picked, const std::function<double(const Scored&)>& what) {
+  double after = 0, recalibrated = 0;
+  for (const Scored* c : picked) {
+    recalibrated += mean_square(*c, "recalibrated");
+    after += what(*c);
+  }
+  return recalibrated > 0 ? 1 - std::sqrt(std::max(0.0, after) / recalibrated) : 0.0;
+}
+
+double closure(const Pick& p) {
+  const double best = closes(p, [](const Scored& c) { return square(c.truth["check_true_effect"].get<double>()); });
+  return best > 0 ? closes(p, [](const Scored& c) { return mean_square(c, "after"); }) / best : 0.0;
+}
+
+void add_closures(json& result, const std::vector<Scored>& cases) {
+  const Pick strong = pick(cases, [](const Scored& c) { return c.kind() == "known" && c.strong(); });
   // without a gap there is nothing to simulate again
   const auto wanted =
       std::count_if(strong.begin(), strong.end(), [](const Scored* c) { return c->verdict() != "no_gap"; });
   const auto measured = std::count_if(strong.begin(), strong.end(), [](const Scored* c) {
     return c->verdict() != "no_gap" && !c->answer["shrink"].is_null();
   });
-  pooled("closure", strong, [&](const Pick& p) {
-    const double best =
-        closes(p, [&](const Scored& c, const json&) { return square(c.truth["check_true_effect"].get<double>()); });
-    return best > 0 ? closes(p, part("after")) / best : 0.0;
-  });
-  pooled("placebo", strong, [&](const Pick& p) { return closes(p, part("placebo")); });
+  add_pooled(result, "closure", strong, closure);
+  add_pooled(result, "placebo", strong,
+             [](const Pick& p) { return closes(p, [](const Scored& c) { return mean_square(c, "placebo"); }); });
   result["closure_basis"] = wanted == 0          ? "no case was said to have a gap"
                             : measured == wanted ? "re-simulated"
                                                  : "predicted by the emulator where no re-simulation was made";
-  pooled("brier", pick([](const Scored&) { return true; }), [](const Pick& p) {
-    double sum = 0;
-    for (const Scored* c : p) {
-      double one = 0;
-      bool seen = false;
-      for (const auto& [name, value] : c->answer["probabilities"].items()) {
-        const bool is_true = name == c->true_model();
-        seen = seen || is_true;
-        one += std::pow(value.get<double>() - is_true, 2);
-      }
-      sum += seen ? one : one + 1;
-    }
-    return p.empty() ? 0.0 : sum / static_cast<double>(p.size());
-  });
-  pooled("where_f1",
-         pick([](const Scored& c) { return c.kind() == "known" || c.kind() == "prior" || c.kind() == "pair"; }),
-         [](const Pick& p) {
-           int both = 0, found = 0, there = 0;
-           for (const Scored* c : p) {
-             std::set<std::string> truth;
-             for (const auto& r : c->truth["regions"]) truth.insert(r.get<std::string>());
-             there += static_cast<int>(truth.size());
-             for (const auto& r : c->answer["where"]) {
-               if (r["q_value"].get<double>() > 0.05) continue;
-               ++found;
-               both += static_cast<int>(truth.count(r["apparatus"].get<std::string>() + " " +
-                                                    r["observable"].get<std::string>() + " " +
-                                                    r["region"].get<std::string>()));
-             }
-           }
-           return found + there > 0 ? 2.0 * both / (found + there) : 1.0;
-         });
+}
 
+double brier(const Pick& p) {
+  double sum = 0;
+  for (const Scored* c : p) {
+    double one = 0;
+    bool seen = false;
+    for (const auto& [name, value] : c->answer["probabilities"].items()) {
+      const bool is_true = name == c->true_model();
+      seen = seen || is_true;
+      one += std::pow(value.get<double>() - is_true, 2);
+    }
+    sum += seen ? one : one + 1;
+  }
+  return p.empty() ? 0.0 : sum / static_cast<double>(p.size());
+}
+
+double f1_of_regions(const Pick& p) {
+  int both = 0, found = 0, there = 0;
+  for (const Scored* c : p) {
+    std::set<std::string> truth;
+    for (const auto& r : c->truth["regions"]) truth.insert(r.get<std::string>());
+    there += static_cast<int>(truth.size());
+    for (const auto& r : c->answer["where"]) {
+      if (r["q_value"].get<double>() > 0.05) continue;
+      ++found;
+      both += static_cast<int>(truth.count(r["apparatus"].get<std::string>() + " " +
+                                           r["observable"].get<std::string>() + " " + r["region"].get<std::string>()));
+    }
+  }
+  return found + there > 0 ? 2.0 * both / (found + there) : 1.0;
+}
+
+void add_by_strength(json& result, const std::vector<Scored>& cases, const Names& effects) {
+  const auto add = [](json& at, const Pick& own) {
+    add_proportion(at, "right", own, is_right);
+    add_proportion(at, "in_group", own, is_in_group);
+    add_proportion(at, "wrong_name", own, is_wrong);
+  };
   result["by_effect"] = json::object();
   for (const char* level : {"weak", "middle", "strong"}) {
-    for (const auto& entry : group) {
-      const Pick own = pick([&, &name = entry.first](const Scored& c) {
-        return known(c) && c.truth["level"] == level && c.effects[0] == name;
-      });
-      if (own.empty()) continue;
-      json& at = result["by_effect"][entry.first][level];
-      proportion(at, "right", own, right);
-      proportion(at, "in_group", own, in_group);
-      proportion(at, "wrong_name", own, wrong);
-    }
-    json& at = result["by_strength"][level];
-    const Pick own = pick([&](const Scored& c) { return known(c) && c.truth["level"] == level; });
-    proportion(at, "right", own, right);
-    proportion(at, "in_group", own, in_group);
-    proportion(at, "wrong_name", own, wrong);
+    const auto known = [level](const Scored& c) { return c.kind() == "known" && c.truth["level"] == level; };
+    for (const std::string& name : effects)
+      if (const Pick own = pick(cases, [&](const Scored& c) { return known(c) && c.effects[0] == name; }); !own.empty())
+        add(result["by_effect"][name][level], own);
+    add(result["by_strength"][level], pick(cases, known));
   }
+}
+
+}  // namespace
+
+json score(const std::string& folder, const std::string& answers, const std::string& isolability_file,
+           std::optional<std::uint64_t> shuffle) {
+  const json sealed = read_sealed(isolability_file);
+  const Isolability isolability = isolability_of_json(sealed, isolability_file);
+  const std::vector<Scored> cases = read_cases(folder, answers, sealed, isolability, shuffle);
+  json result = {{"schema", 2}, {"cases", cases.size()}};
+  add_rates(result, cases);
+  add_closures(result, cases);
+  add_pooled(result, "brier", pick(cases, [](const Scored&) { return true; }), brier);
+  add_pooled(
+      result, "where_f1",
+      pick(cases, [](const Scored& c) { return c.kind() == "known" || c.kind() == "prior" || c.kind() == "pair"; }),
+      f1_of_regions);
+  Names effects = isolability.effects;
+  std::sort(effects.begin(), effects.end());
+  add_by_strength(result, cases, effects);
   return result;
 }
 

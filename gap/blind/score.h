@@ -2,17 +2,21 @@
 // Purpose: the marks of a blind check, from sealed truths and the answers given to the cases.
 //
 // Proportions with 95 % intervals by Wilson's score; pooled closures, Brier score and F1 by bootstrap over base truths
-// and cases (10th ... of 2000 draws). A case counts as
-//   right         known, strong, sealed as isolable and detectable: exactly its effect is named
-//   in_group      known, strong, detectable: named an effect of its sealed group, or ambiguous with the truth and no
-//   name outside it wrong_name    known, sham, pair, prior: a name that is no true one false_alarm   none: any verdict
-//   but no_gap unknown_found, removed_named   removed, strong: unknown, named coverage90    prior: the true strength
-//   lies in the interval given for its effect (where one is given) closure       known, strong, pooled over cases: what
-//   `after` closes beyond recalibration over what the true effect closes,
-//                 each 1 - sqrt(sum after^2 / sum recalibrated^2); a verdict without an effect closes nothing
-//   placebo       the same for the placebo
-//   brier         mean over all cases of sum_k (p_k - [k is true])^2
-//   where_f1      regions with q <= 0.05 against those the noise-free effect moves by more than 2 u
+// and cases (50th and 1950th of 2000 draws). Group and detectable: of the true effect at its own strength
+// (isolability.h), from the sealed tables. A case counts as
+//   right          known, strong, detectable, its group itself alone: exactly its effect is named
+//   in_group       known, strong, detectable: named an effect of its group, or ambiguous with the truth and no name
+//                  outside the group
+//   wrong_name     known, sham, pair, prior: a name that is no true one
+//   false_alarm    none: any verdict but no_gap
+//   unknown_found  removed, strong: unknown
+//   removed_named  removed, strong: named
+//   coverage90     prior: the true strength lies in the interval given for its effect (where one is given)
+//   closure        known, strong, pooled over cases: what `after` closes beyond recalibration over what the true effect
+//                  closes, each 1 - sqrt(sum after^2 / sum recalibrated^2); a verdict without an effect closes nothing
+//   placebo        the same for the placebo
+//   brier          mean over all cases of sum_k (p_k - [k is true])^2
+//   where_f1       regions with q <= 0.05 against those the noise-free effect moves by more than 2 u
 // Errors: BadInput for a truth that is not what its seal says, or a case without an answer.
 #pragma once
 

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <optional>
 #include <random>
 
@@ -15,6 +14,7 @@
 #include "core/seal.h"
 #include "core/sha256.h"
 #include "gap/blind/power_signal.h"
+#include "gap/question/sealed.h"
 #include "gap/verdict/regions.h"
 
 namespace vielto::gap {
@@ -91,17 +91,12 @@ class Maker {
       options.use_discrepancy = false;
       truths_.push_back(truth.emulator.model(table_, options, truth.settings));
     }
-    if (!seal_holds(request.isolability))
-      throw BadInput(request.isolability, 0, "is not what its seal says", "seal it again");
-    std::ifstream in(request.isolability);
-    const json sealed = json::parse(in, nullptr, false);
-    if (sealed.is_discarded() || !sealed.contains("groups"))
-      throw BadInput(request.isolability, 0, "is no isolability.json", "make it with vielto gap isolability");
+    const json sealed = read_sealed(request.isolability);
     const TableModel fit = library_model_.part(fit_);
     if (sealed.value("rows", "") != rows_fingerprint(fit.rows, fit.noise))
       throw BadInput(request.isolability, 0, fmt::format("was sealed for other rows than those of {}", request.tests),
                      "seal those: vielto gap isolability");
-    groups_ = sealed["groups"].get<std::map<std::string, std::vector<std::string>>>();
+    isolability_ = isolability_of_json(sealed, request.isolability);
     u_.resize(library_model_.size());
     for (Index i = 0; i < u_.size(); ++i) u_[i] = table_.rows[i].u;
   }
@@ -130,18 +125,19 @@ class Maker {
     for (std::size_t i = 0; i < strong.size() && static_cast<int>(i) < plan_.removed; ++i) {
       Case c = strong[i];
       c.kind = "removed";
-      c.without = group_of(c.effects[0].first);
+      c.without = group_of(c);
       add(c);
     }
     for (std::size_t i = 0; i < strong.size() && static_cast<int>(i) < plan_.sham; ++i) {
       Case c = strong[strong.size() - 1 - i];
       c.kind = "sham";
-      // the group of another effect, which the true one does not belong to
-      std::vector<std::string> others;
-      for (const auto& [name, group] : groups_)
-        if (!share(name, c.effects[0].first)) others.push_back(name);
+      // the group of another effect, at its strength in another strong case,
+      // which the true one does not belong to
+      std::vector<std::vector<std::string>> others;
+      for (const Case& other : strong)
+        if (auto group = group_of(other); !contains(group, c.effects[0].first)) others.push_back(std::move(group));
       if (others.empty()) continue;
-      c.without = group_of(others[std::uniform_int_distribution<std::size_t>(0, others.size() - 1)(random_)]);
+      c.without = others[std::uniform_int_distribution<std::size_t>(0, others.size() - 1)(random_)];
       add(c);
     }
     const auto any_effect = [&] {
@@ -154,10 +150,10 @@ class Maker {
     for (int i = 0, tries = 0; i < plan_.pairs && tries < 100 * plan_.pairs; ++tries) {
       const int truth = any_truth();
       const std::string a = any_effect().name, b = any_effect().name;
-      if (share(a, b)) continue;
+      if (a == b) continue;
       const auto s = strength_for(truth, a, plan_.levels[1].second, false),
                  t = strength_for(truth, b, plan_.levels[1].second, false);
-      if (!s || !t) continue;
+      if (!s || !t || contains(group_of(truth, a, *s), b) || contains(group_of(truth, b, *t), a)) continue;
       add({"pair", "middle", truth, {{a, *s}, {b, *t}}, {}, {}});
       ++i;
     }
@@ -174,13 +170,15 @@ class Maker {
   }
 
  private:
-  std::vector<std::string> group_of(const std::string& effect) const {
-    const auto found = groups_.find(effect);
-    return found == groups_.end() ? std::vector<std::string>{effect} : found->second;
+  // What can stand in for an effect at its strength, in the library's terms.
+  std::vector<std::string> group_of(int truth, const std::string& effect, double strength) const {
+    return isolability_.group_of(effect, library_strength(effect, change(truths_[truth], {{effect, strength}})));
   }
-  bool share(const std::string& a, const std::string& b) const {
-    const auto group = group_of(a);
-    return std::find(group.begin(), group.end(), b) != group.end();
+  std::vector<std::string> group_of(const Case& c) const {
+    return group_of(c.truth, c.effects[0].first, c.effects[0].second);
+  }
+  static bool contains(const std::vector<std::string>& names, const std::string& name) {
+    return std::find(names.begin(), names.end(), name) != names.end();
   }
 
   VectorXd change(const TableModel& model, const Effects& effects) const {
@@ -301,7 +299,10 @@ class Maker {
       for (const auto& [name, s] : c.effects) {
         const double own = library_strength(name, change(truth, {{name, s}}));
         library_effects.emplace_back(name, own);
-        j["effects"][name] = {{"truth_strength", s}, {"strength", own}, {"group", group_of(name)}};
+        j["effects"][name] = {{"truth_strength", s},
+                              {"strength", own},
+                              {"group", isolability_.group_of(name, own)},
+                              {"detectable", isolability_.detectable(name, own)}};
       }
       j["removed"] = c.without;
       j["regions"] = json::array();
@@ -332,7 +333,7 @@ class Maker {
   TableModel library_model_;
   std::vector<Index> fit_;
   std::vector<TableModel> truths_;
-  std::map<std::string, std::vector<std::string>> groups_;  // effect -> itself and those it shares a group with
+  Isolability isolability_;  // as sealed
   VectorXd u_;
   std::vector<Case> cases_;
   std::string unreachable_;

@@ -16,6 +16,8 @@ double Discrepancy::correlation(double squared_distance) const {
   return common + (1 - common) * std::exp(-squared_distance / (2 * length * length));
 }
 
+constexpr double kPriorSpread = 0.2;  // of the half-normal prior of sd
+
 Discrepancy estimate_discrepancy(const std::vector<LawDifference>& laws) {
   struct Node {
     Discrepancy value;
@@ -27,10 +29,10 @@ Discrepancy estimate_discrepancy(const std::vector<LawDifference>& laws) {
     for (const double common : {0.05, 0.35, 0.65, 0.95})
       for (const double length : {0.3, 0.7, 1.5}) {
         Discrepancy d;
-        d.sd = 0.002 * std::pow(1.15, i);  // 0.2 % to 47 %, even in the logarithm: prior 1/sd
+        d.sd = 0.002 * std::pow(1.15, i);  // 0.2 % to 47 %, even in the logarithm
         d.common = common;
         d.length = length;
-        double log_posterior = 0;
+        double log_posterior = std::log(d.sd) - d.sd * d.sd / (2 * kPriorSpread * kPriorSpread);
         for (const LawDifference& law : laws) {
           Eigen::MatrixXd v = law.noise;
           for (Eigen::Index a = 0; a < v.rows(); ++a)

@@ -128,7 +128,7 @@ TableModel Emulator::empty_model(const ReducedTable& table) const {
                       &TableModel::logarithmic, &TableModel::unknown_scale})
     model.*member = VectorXd::Zero(n);
   for (auto member : {&TableModel::seed, &TableModel::emulator, &TableModel::family, &TableModel::discrepancy,
-                      &TableModel::shape_correlation})
+                      &TableModel::shape_correlation, &TableModel::reference})
     model.*member = MatrixXd::Zero(n, n);
   model.family_members = MatrixXd::Zero(n, family_.weights.size());
   model.family_weights = family_.weights;

@@ -48,7 +48,7 @@ TableModel TableModel::part(const std::vector<Eigen::Index>& keep) const {
     p.*member = (this->*member)(keep).eval();
   if (known_change.size() > 0) p.known_change = known_change(keep).eval();
   for (auto member : {&TableModel::noise, &TableModel::seed, &TableModel::emulator, &TableModel::family,
-                      &TableModel::discrepancy, &TableModel::shape_correlation})
+                      &TableModel::discrepancy, &TableModel::reference, &TableModel::shape_correlation})
     p.*member = (this->*member)(keep, keep).eval();
   for (Eigen::MatrixXd& shape : p.unknown_shapes) shape = shape(keep, keep).eval();
   p.family_members = family_members(keep, Eigen::all).eval();
@@ -59,25 +59,24 @@ TableModel TableModel::part(const std::vector<Eigen::Index>& keep) const {
   return p;
 }
 
-TableModel TableModel::in_logarithms(NoiseOver noise_over) const {
+TableModel TableModel::in_logarithms(Values values) const {
   using Eigen::Index;
   using Eigen::MatrixXd;
   using Eigen::VectorXd;
   TableModel p = *this;
-  VectorXd over_f = VectorXd::Ones(size()), over_noise = over_f;
+  VectorXd over_f = VectorXd::Ones(size());
   for (Index i = 0; i < size(); ++i) {
-    if (relative[i] == 0 || (noise_over == NoiseOver::observed && observed[i] <= 0)) continue;
+    if (relative[i] == 0 || (values == Values::measured && observed[i] <= 0)) continue;
     p.logarithmic[i] = p.scale[i] = 1;
     p.relative[i] = 0;  // what multiplied adds up
     over_f[i] = 1 / baseline[i];
-    over_noise[i] = noise_over == NoiseOver::observed ? 1 / observed[i] : over_f[i];
     p.observed[i] = std::log(observed[i]);
     p.baseline[i] = std::log(baseline[i]);
     p.family_members.row(i) = (family_members.row(i).array() / baseline[i]).log1p();
     p.unknown_scale[i] /= baseline[i];
   }
-  p.noise = over_noise.asDiagonal() * noise * over_noise.asDiagonal();
-  for (auto member : {&TableModel::seed, &TableModel::emulator, &TableModel::family, &TableModel::discrepancy})
+  for (auto member : {&TableModel::noise, &TableModel::seed, &TableModel::emulator, &TableModel::family,
+                      &TableModel::discrepancy, &TableModel::reference})
     p.*member = over_f.asDiagonal() * (this->*member) * over_f.asDiagonal();
   if (family_weights.size() > 0) {
     // the members' own scatter anew, the emulator's error of them stays
@@ -132,7 +131,7 @@ TableModel TableModel::with_known(const std::string& name, double strength) cons
     return Eigen::MatrixXd(factor.asDiagonal() * c * factor.asDiagonal());
   };
   p.emulator = scaled(emulator) + known.emulator(strength);
-  for (auto member : {&TableModel::seed, &TableModel::family, &TableModel::discrepancy})
+  for (auto member : {&TableModel::seed, &TableModel::family, &TableModel::discrepancy, &TableModel::reference})
     p.*member = scaled(this->*member);
   for (EffectResponse& e : p.effects) {
     e.mean = factor.asDiagonal() * e.mean;

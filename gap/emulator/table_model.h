@@ -3,7 +3,7 @@
 // calibrated family and every effect say there, and what is uncertain about each. Made by the emulator.
 //
 //   y = f + b + r(s) + errors,   covariance of y at strengths s:
-//   C(s) = noise + seed + emulator + family + discrepancy + sum_e [emulator_e(s) + eta_e^2 R_e(s) G R_e(s)]
+//   C(s) = noise + seed + emulator + family + discrepancy + reference + sum_e [emulator_e(s) + eta_e^2 R_e(s) G R_e(s)]
 // f baseline, b the family's mean less f, r the effects' responses, R = diag(r), G the shape correlation: an effect's
 // response may be off by eta of itself, half of that variance common to an observable, half of each condition's own.
 // Two effects have one term more, r the product of their responses over the scale and eta that of their shape errors
@@ -48,6 +48,7 @@ struct TableModel {
   Eigen::VectorXd scale;        // what a relative gap is relative to: the baseline, or the observable's usual size
   Eigen::VectorXd logarithmic;  // 1 where the row is in logarithms
   Eigen::MatrixXd noise, seed, emulator, family, discrepancy;
+  Eigen::MatrixXd reference;       // what a reference state leaves open (reference.h); 0 without one
   Eigen::MatrixXd family_members;  // n x m: each member less f; m = 0 without a family
   Eigen::VectorXd family_weights;
   Eigen::MatrixXd family_parameters;  // m x p
@@ -65,17 +66,17 @@ struct TableModel {
 
   Eigen::Index size() const { return observed.size(); }
   // C(0): all that is uncertain without an effect.
-  Eigen::MatrixXd null_covariance() const { return noise + seed + emulator + family + discrepancy; }
+  Eigen::MatrixXd null_covariance() const { return noise + seed + emulator + family + discrepancy + reference; }
   Eigen::VectorXd gap() const { return observed - baseline - family_shift; }
   const EffectResponse* effect(const std::string& name) const;
   // x over the scale; 0 where an observable has no size of its own (the zero of an idle run), so that effects add up
   // there.
   Eigen::VectorXd over_scale(const Eigen::VectorXd& x) const;
-  // The same with logarithms in the rows that are relative and have a value above 0, covariances to first order: those
-  // of the simulation over f, the noise over the observed value. NoiseOver::baseline is for thresholds and isolability,
-  // where no value counts yet: the noise over f too, and logarithms whatever stands in place of a value.
-  enum class NoiseOver { observed, baseline };
-  TableModel in_logarithms(NoiseOver noise_over) const;
+  // The same with logarithms in the rows that are relative, covariances to first order, all over f: an error of u means
+  // as much of a logarithm as the value that the model has, not the one that the error itself has moved (covariance_at
+  // takes f + r). Values::measured: rows with a value above 0 only; placeholders: no value counts yet.
+  enum class Values { measured, placeholders };
+  TableModel in_logarithms(Values values) const;
   // Only the rows with `keep`.
   TableModel part(const std::vector<Eigen::Index>& keep) const;
   // Covariance that an effect at this strength brings: its emulator's and shape error, what it does with known effects.
@@ -91,10 +92,11 @@ struct UncertaintySource {
   const char* name;
   Eigen::MatrixXd TableModel::*part;
 };
-constexpr std::array<UncertaintySource, 5> kUncertaintySources = {{{"measurement", &TableModel::noise},
+constexpr std::array<UncertaintySource, 6> kUncertaintySources = {{{"measurement", &TableModel::noise},
                                                                    {"seeds", &TableModel::seed},
                                                                    {"emulator", &TableModel::emulator},
                                                                    {"calibration", &TableModel::family},
-                                                                   {"contact law", &TableModel::discrepancy}}};
+                                                                   {"contact law", &TableModel::discrepancy},
+                                                                   {"reference", &TableModel::reference}}};
 
 }  // namespace vielto::gap

@@ -18,7 +18,10 @@ VectorXd usual_size(const TableModel& model, double floor) {
   for (const EffectResponse& e : model.effects)
     squares += ((e.response(e.low / 2).cwiseAbs2() + e.response(e.high / 2).cwiseAbs2()) / 2);
   const double effects = std::max<double>(1, static_cast<double>(model.effects.size()));
-  return (squares / effects).cwiseSqrt().cwiseMax(floor * model.scale.cwiseAbs());
+  VectorXd size = (squares / effects).cwiseSqrt().cwiseMax(floor * model.scale.cwiseAbs());
+  for (std::size_t i = 0; i < model.rows.size(); ++i)
+    if (model.rows[i].apparatus == "bench") size[static_cast<Index>(i)] = 0;
+  return size;
 }
 
 double smooth(const VectorXd& c, const VectorXd& other) {
@@ -34,8 +37,12 @@ double level_and_trends(const VectorXd& c, const VectorXd& other) {
 
 }  // namespace
 
-void set_unknown_gap(TableModel& model, const std::vector<VectorXd>& conditions, const Settings& settings) {
+void set_unknown_scale(TableModel& model, const Settings& settings) {
   model.unknown_scale = usual_size(model, settings.unknown_floor);
+}
+
+void set_unknown_gap(TableModel& model, const std::vector<VectorXd>& conditions, const Settings& settings) {
+  set_unknown_scale(model, settings);
   const Index n = model.size();
   model.unknown_shapes.clear();
   for (const auto within : {smooth, level_and_trends}) {

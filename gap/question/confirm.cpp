@@ -450,8 +450,11 @@ void transform(const VariantSettings& v, const Observation& row, const Inputs& i
 
 }  // namespace
 
-Shrink measured_shrink(const Plan& plan, const Inputs& inputs, const TableModel& model, const VectorXd& seed_variance) {
+Shrink measured_shrink(const Plan& plan, const Question& question) {
   const Shown shown(plan);
+  const TableModel& model = question.model;
+  const TableModel plain = question.simulated();
+  const VectorXd seed_variance = plain.seed.diagonal();
   std::vector<Index> at;
   CheckRows check;
   for (std::size_t i = 0; i < model.rows.size(); ++i)
@@ -474,9 +477,11 @@ Shrink measured_shrink(const Plan& plan, const Inputs& inputs, const TableModel&
         y = part * y + (1 - part) * without;
         variance = part * part * variance + (1 - part) * (1 - part) * its;
       }
-      transform(v, row, inputs, y, variance);
-      s.value[i] = y;
-      s.u[i] = std::sqrt(variance);
+      transform(v, row, question.inputs, y, variance);
+      const double off =
+          question.reference && model.relative[at[i]] > 0 ? model.baseline[at[i]] / plain.baseline[at[i]] : 1;
+      s.value[i] = y * off;
+      s.u[i] = std::sqrt(variance) * off;
     }
     simulated[v.variant] = s;
   }

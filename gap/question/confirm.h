@@ -77,9 +77,8 @@ void refuse_other_runs(const Plan& plan);
 // ends first.
 void run_plan(const Plan& plan, int jobs);
 
-// The measured shrink. `seed_variance` of a single run at each row of the model. Errors: BadInput naming a run whose
-// observations are missing.
-Shrink measured_shrink(const Plan& plan, const Inputs& inputs, const TableModel& model,
-                       const Eigen::VectorXd& seed_variance);
+// The measured shrink. With a reference state of the change: what the simulation shows is corrected by what it is off
+// in the reference, as the question's model has it. Errors: BadInput naming a run whose observations are missing.
+Shrink measured_shrink(const Plan& plan, const Question& question);
 
 }  // namespace vielto::gap

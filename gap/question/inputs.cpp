@@ -114,4 +114,19 @@ ReducedTable only_rows(ReducedTable table, const std::vector<std::string>& only)
   return part;
 }
 
+ReducedTable joined(const ReducedTable& a, const ReducedTable& b) {
+  ReducedTable t = a;
+  t.rows.insert(t.rows.end(), b.rows.begin(), b.rows.end());
+  t.lines.insert(t.lines.end(), b.lines.begin(), b.lines.end());
+  const Eigen::Index n = static_cast<Eigen::Index>(a.rows.size()), m = static_cast<Eigen::Index>(b.rows.size());
+  std::vector<Eigen::Triplet<double>> entries;
+  for (const auto& [part, offset] : {std::pair(&a.covariance, Eigen::Index(0)), std::pair(&b.covariance, n)})
+    for (int k = 0; k < part->outerSize(); ++k)
+      for (Eigen::SparseMatrix<double>::InnerIterator it(*part, k); it; ++it)
+        entries.emplace_back(static_cast<int>(it.row() + offset), static_cast<int>(it.col() + offset), it.value());
+  t.covariance.resize(n + m, n + m);
+  t.covariance.setFromTriplets(entries.begin(), entries.end());
+  return t;
+}
+
 }  // namespace vielto::gap

@@ -41,4 +41,7 @@ std::string rows_fingerprint(const std::vector<Observation>& rows, const Eigen::
 // included. Errors: BadInput for a condition that is none, and if no row is left.
 ReducedTable only_rows(ReducedTable table, const std::vector<std::string>& only);
 
+// The rows of a, then those of b; errors are shared within each only.
+ReducedTable joined(const ReducedTable& a, const ReducedTable& b);
+
 }  // namespace vielto::gap

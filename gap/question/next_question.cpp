@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <set>
 
 #include "core/bad_input.h"
 
@@ -12,27 +14,10 @@ namespace {
 
 using Eigen::Index;
 
-ReducedTable joined(const ReducedTable& a, const ReducedTable& b) {
-  ReducedTable t = a;
-  t.rows.insert(t.rows.end(), b.rows.begin(), b.rows.end());
-  t.lines.insert(t.lines.end(), b.lines.begin(), b.lines.end());
-  const Index n = static_cast<Index>(a.rows.size()), m = static_cast<Index>(b.rows.size());
-  std::vector<Eigen::Triplet<double>> entries;
-  for (const auto& [part, offset] : {std::pair(&a.covariance, Index(0)), std::pair(&b.covariance, n)})
-    for (int k = 0; k < part->outerSize(); ++k)
-      for (Eigen::SparseMatrix<double>::InnerIterator it(*part, k); it; ++it)
-        entries.emplace_back(static_cast<int>(it.row() + offset), static_cast<int>(it.col() + offset), it.value());
-  t.covariance.resize(n + m, n + m);
-  t.covariance.setFromTriplets(entries.begin(), entries.end());
-  return t;
-}
+using Open = std::vector<const ModelEvidence*>;
 
-}  // namespace
-
-std::vector<NextTest> next_tests(const Inputs& inputs, const ReducedTable& fit, const EmulatorOptions& options,
-                                 const Diagnosis& diagnosis, const std::string& candidates,
-                                 const std::vector<std::string>& without, std::vector<std::string>& notes) {
-  std::vector<const ModelEvidence*> open;
+Open open_models(const Diagnosis& diagnosis) {
+  Open open;
   for (const ModelEvidence& m : diagnosis.models) {
     if (m.effects.empty() || open.size() == 4) continue;
     if (diagnosis.verdict == Verdict::ambiguous &&
@@ -41,35 +26,76 @@ std::vector<NextTest> next_tests(const Inputs& inputs, const ReducedTable& fit, 
       continue;
     open.push_back(&m);
   }
+  return open;
+}
+
+// The candidate's rows with what the simulation expects for values, and u.
+ReducedTable added_rows(const Question& question, const CandidateTest& test, const std::string& candidates) {
+  const Observation& like = question.fit.rows.front();
+  ReducedTable added = candidate_table(candidates, test, like.wall, like.material);
+  const TableModel alone = question.inputs.emulator.model(added, question.options.emulator, question.inputs.settings);
+  for (std::size_t i = 0; i < test.rows.size(); ++i) {
+    const Index k = static_cast<Index>(i);
+    added.rows[i].value = alone.baseline[k];
+    if (test.relative_u[i]) added.rows[i].u *= std::fabs(alone.baseline[k]);
+    added.covariance.coeffRef(k, k) = added.rows[i].u * added.rows[i].u;
+  }
+  return added;
+}
+
+bool knows_all(const TableModel& model, const Open& open) {
+  return std::all_of(open.begin(), open.end(), [&](const ModelEvidence* m) {
+    return std::all_of(m->effects.begin(), m->effects.end(), [&](const std::string& e) { return model.effect(e); });
+  });
+}
+
+CandidateTest own_tests(const StateTest& state, const Question& question) {
+  std::set<std::string> tests;
+  for (const Observation& row : question.fit.rows) tests.insert(row.test);
+  CandidateTest test;
+  test.name = state.name;
+  test.apparatus = question.fit.rows.front().apparatus;
+  test.how = state.how;
+  test.hours = state.hours_each * static_cast<double>(tests.size());
+  return test;
+}
+
+// The question's own tests: against a reference, or once more.
+void add_state_tests(const Question& question, const Open& open, bool unknown, const std::string& candidates,
+                     std::vector<NextTest>& tests) {
+  if (const auto state = read_state_test(candidates, "reference"); state && !question.reference) {
+    const TableModel now = question.fit.in_logarithms(TableModel::Values::measured);
+    tests.push_back(judge_state(now, question.with_such_a_reference().in_logarithms(TableModel::Values::placeholders),
+                                own_tests(*state, question), open, unknown));
+  }
+  if (const auto state = read_state_test(candidates, "repeat")) {
+    const TableModel joint = question.extended(question.fit_table());
+    const auto present = static_cast<Index>(question.fit.rows.size());
+    const CandidateTest test = own_tests(*state, question);
+    tests.push_back(unknown
+                        ? judge_for_unknown(joint.in_logarithms(TableModel::Values::measured), present, test)
+                        : judge_candidate(joint.in_logarithms(TableModel::Values::placeholders), present, test, open));
+  }
+}
+
+}  // namespace
+
+std::vector<NextTest> next_tests(const Question& question, const Diagnosis& diagnosis, const std::string& candidates,
+                                 std::vector<std::string>& notes) {
+  const Open open = open_models(diagnosis);
   const bool unknown = diagnosis.verdict == Verdict::unknown;
   std::vector<NextTest> tests;
   if (open.size() < 2 && !unknown) return tests;
+  const auto present = static_cast<Index>(question.fit.rows.size());
   std::vector<std::string> left_out;
   std::string reason;
   for (const CandidateTest& test : read_candidate_tests(candidates)) {
     try {
-      const Observation& like = fit.rows.front();
-      ReducedTable added = candidate_table(candidates, test, like.wall, like.material);
-      const TableModel alone = inputs.emulator.model(added, options, inputs.settings);
-      for (std::size_t i = 0; i < test.rows.size(); ++i) {
-        const Index k = static_cast<Index>(i);
-        added.rows[i].value = alone.baseline[k];
-        if (test.relative_u[i]) added.rows[i].u *= std::fabs(alone.baseline[k]);
-        added.covariance.coeffRef(k, k) = added.rows[i].u * added.rows[i].u;
-      }
-      const TableModel joint = inputs.emulator.model(joined(fit, added), options, inputs.settings).without(without);
-      const auto present = static_cast<Index>(fit.rows.size());
-      if (unknown) {
-        tests.push_back(judge_for_unknown(joint.in_logarithms(TableModel::NoiseOver::observed), present, test));
-        continue;
-      }
-      // An effect may be no candidate once the added row needs runs that the library lacks.
-      std::vector<const ModelEvidence*> known;
-      for (const ModelEvidence* m : open)
-        if (std::all_of(m->effects.begin(), m->effects.end(), [&](const std::string& e) { return joint.effect(e); }))
-          known.push_back(m);
-      if (known.size() == open.size())
-        tests.push_back(judge_candidate(joint.in_logarithms(TableModel::NoiseOver::baseline), present, test, known));
+      const TableModel joint = question.extended(added_rows(question, test, candidates));
+      if (unknown)
+        tests.push_back(judge_for_unknown(joint.in_logarithms(TableModel::Values::measured), present, test));
+      else if (knows_all(joint, open))  // the added row may need runs that the library lacks
+        tests.push_back(judge_candidate(joint.in_logarithms(TableModel::Values::placeholders), present, test, open));
       else
         notes.push_back(fmt::format("next test {}: the library lacks runs for it", test.name));
     } catch (const BadInput& error) {
@@ -77,6 +103,7 @@ std::vector<NextTest> next_tests(const Inputs& inputs, const ReducedTable& fit, 
       left_out.push_back(test.name);
     }
   }
+  add_state_tests(question, open, unknown, candidates, tests);
   if (!left_out.empty())
     notes.push_back(fmt::format("next tests left out: {}; the first because {}", fmt::join(left_out, ", "), reason));
   std::sort(tests.begin(), tests.end(),

@@ -2,16 +2,15 @@
 // Purpose: judge every candidate test for what the data leave open, best gain per hour first.
 #pragma once
 
-#include "gap/question/inputs.h"
+#include "gap/question/question.h"
 #include "gap/verdict/diagnosis.h"
 
 namespace vielto::gap {
 
 // Open: the members of an ambiguous group, else the four most probable named models; where the gap is unknown, the gap
-// itself. Candidates that the library does
-// not reach (observable, conditions) are told in `notes` and left out.
-std::vector<NextTest> next_tests(const Inputs& inputs, const ReducedTable& fit, const EmulatorOptions& options,
-                                 const Diagnosis& diagnosis, const std::string& candidates,
-                                 const std::vector<std::string>& without, std::vector<std::string>& notes);
+// itself. Beside the candidates of the file: the question's own tests once more, or in a reference state if there is
+// none yet. Candidates that the library does not reach (observable, conditions) are told in `notes` and left out.
+std::vector<NextTest> next_tests(const Question& question, const Diagnosis& diagnosis, const std::string& candidates,
+                                 std::vector<std::string>& notes);
 
 }  // namespace vielto::gap

@@ -10,6 +10,7 @@
 #include "core/bad_input.h"
 #include "core/csv.h"
 #include "core/sha256.h"
+#include "gap/emulator/reference.h"
 
 namespace vielto::gap {
 namespace {
@@ -47,30 +48,205 @@ std::vector<Eigen::Index> rows_of(const ReducedTable& table, const std::string& 
   return keep;
 }
 
-Question::Question(QuestionOptions asked)
-    : options(std::move(asked)),
-      inputs(options.files),
-      table(only_rows(read_reduced_table(options.table), options.only)),
-      model(inputs.emulator.model(table, options.emulator, inputs.settings).without(options.without)),
-      fit(model.part(rows_of(table, "fit"))) {
+namespace {
+
+constexpr double kNotTheMachine = 1e-6, kDoubtful = 1e-3;  // chances of the reference's chi^2
+
+// Both tables as one; rows of one file keep the errors that they share.
+ReducedTable rows_of_both(const ReducedTable& whole, const std::vector<std::string>& first,
+                          const std::vector<std::string>& second, std::size_t& n) {
+  ReducedTable a = only_rows(whole, first), b = only_rows(whole, second);
+  std::vector<int> keep;
+  for (const ReducedTable* part : {&a, &b})
+    for (const int line : part->lines)
+      keep.push_back(static_cast<int>(std::find(whole.lines.begin(), whole.lines.end(), line) - whole.lines.begin()));
+  n = a.rows.size();
+  for (std::size_t i = 0; i < n; ++i)
+    if (std::find(keep.begin() + static_cast<std::ptrdiff_t>(n), keep.end(), keep[i]) != keep.end())
+      throw BadInput(whole.path, whole.lines[static_cast<std::size_t>(keep[i])],
+                     "belongs to the reference and to what has changed", "state --only and --reference-only apart");
+  ReducedTable joint = whole;
+  joint.rows = a.rows;
+  joint.lines = a.lines;
+  joint.rows.insert(joint.rows.end(), b.rows.begin(), b.rows.end());
+  joint.lines.insert(joint.lines.end(), b.lines.begin(), b.lines.end());
+  joint.covariance = Eigen::MatrixXd(Eigen::MatrixXd(whole.covariance)(keep, keep)).sparseView();
+  return joint;
+}
+
+// Rows of a table from `begin` on, `count` of them.
+ReducedTable section(const ReducedTable& table, std::size_t begin, std::size_t count) {
+  ReducedTable part = table;
+  const auto at = static_cast<std::ptrdiff_t>(begin), n = static_cast<std::ptrdiff_t>(count);
+  part.rows = {table.rows.begin() + at, table.rows.begin() + at + n};
+  part.lines = {table.lines.begin() + at, table.lines.begin() + at + n};
+  part.covariance = Eigen::MatrixXd(Eigen::MatrixXd(table.covariance).block(at, at, n, n)).sparseView();
+  return part;
+}
+
+}  // namespace
+
+Question::Question(QuestionOptions asked) : options(std::move(asked)), inputs(options.files) {
+  read_tables();
+  if (reference) {
+    const TableModel joint = joint_model(inputs.emulator, joint_, joint_count_, repeats_, &reference->scatter);
+    const auto n = static_cast<Eigen::Index>(reference->rows.table.rows.size());
+    reference->expected = expected_reference(joint, n);
+    reference->probability = reference_probability(joint, reference->values);
+    check_reference();
+  }
+  model = model_of(inputs.emulator, reference ? reference->values : Eigen::VectorXd(), repeats_);
+  fit = model.part(rows_of(table, "fit"));
   for (const std::string& name : options.without)
     if (std::none_of(inputs.effects.begin(), inputs.effects.end(), [&](const Effect& e) { return e.name == name; }))
       throw BadInput("--without " + name, 0, "is no effect", "name one of the effects' folder");
   if (options.draws > 0) inputs.settings.draws = options.draws;
   for (const auto* notes : {&inputs.library.notes, &model.silent})
     model.notes.insert(model.notes.end(), notes->begin(), notes->end());
+  if (reference)
+    for (const Scatter& s : reference->scatter) model.notes.push_back(text_of(s));
+  if (reference && reference->probability < kDoubtful)
+    model.notes.push_back(fmt::format(
+        "the reference itself departs from the calibrated simulation by more than chance (chi2 probability {:.1g}): is "
+        "the model validated in that state?",
+        reference->probability));
 }
 
-TableModel Question::before_data() const { return fit.in_logarithms(TableModel::NoiseOver::baseline); }
+void Question::read_tables() {
+  if (options.reference.empty()) {
+    table = only_rows(read_reduced_table(options.table), options.only);
+    return;
+  }
+  std::size_t n = 0;
+  ReducedTable both;
+  if (options.reference == options.table) {
+    both = rows_of_both(read_reduced_table(options.table), options.reference_only, options.only, n);
+  } else {
+    const ReducedTable first = only_rows(read_reduced_table(options.reference), options.reference_only);
+    // for messages that name the reference's own lines
+    inputs.emulator.model(first, options.emulator, inputs.settings);
+    both = joined(first, only_rows(read_reduced_table(options.table), options.only));
+    n = first.rows.size();
+    both.path = options.table;
+  }
+  const ReducedTable before = section(both, 0, n), after = section(both, n, both.rows.size() - n);
+  add_repeats(before, its_repeats_);
+  repeats_ = its_repeats_;
+  add_repeats(after, repeats_);
+  // the reference is measured, all of it: roles are of the changed rows
+  ReducedTable without_roles = both;
+  for (std::size_t i = 0; i < n; ++i) without_roles.rows[i].role = "reference";
+  const Averaged all = averaged(without_roles);
+  joint_ = all.table;
+  joint_count_ = all.count;
+  std::size_t first_changed = 0;
+  while (first_changed < joint_.rows.size() && joint_.rows[first_changed].role == "reference") ++first_changed;
+  reference.emplace();
+  reference->rows = {section(joint_, 0, first_changed),
+                     {all.count.begin(), all.count.begin() + static_cast<std::ptrdiff_t>(first_changed)}};
+  table = section(joint_, first_changed, joint_.rows.size() - first_changed);
+  count_ = {all.count.begin() + static_cast<std::ptrdiff_t>(first_changed), all.count.end()};
+  reference->values.resize(static_cast<Eigen::Index>(first_changed));
+  for (std::size_t i = 0; i < first_changed; ++i)
+    reference->values[static_cast<Eigen::Index>(i)] = joint_.rows[i].value;
+}
+
+void Question::check_reference() {
+  const auto measured = [&](const Observation& row) {
+    return std::any_of(reference->rows.table.rows.begin(), reference->rows.table.rows.end(), [&](const Observation& r) {
+      return r.apparatus == row.apparatus && r.observable == row.observable;
+    });
+  };
+  if (std::none_of(table.rows.begin(), table.rows.end(), measured))
+    throw BadInput(options.reference, 0, fmt::format("measures nothing that {} measures", options.table),
+                   "a reference is the same machine in another state: state its own rows");
+  if (options.emulator.ignored.count("material") == 0)
+    for (const Observation& before : reference->rows.table.rows)
+      for (const Observation& after : table.rows)
+        if (!before.material.empty() && !after.material.empty() && before.material != after.material)
+          throw BadInput(options.reference, 0,
+                         fmt::format("is of '{}', the changed rows are of '{}'", before.material, after.material),
+                         "measure the same grain in both states, or --ignore material");
+  if (reference->probability < kNotTheMachine)
+    throw BadInput(options.reference, 0,
+                   fmt::format("is not of the machine that the model is validated for: its chi2 about the calibrated "
+                               "simulation has a probability of {:.1g}",
+                               reference->probability),
+                   "state another reference, or diagnose this one by itself first");
+}
+
+TableModel Question::joint_model(const Emulator& emulator, const ReducedTable& both, const std::vector<int>& count,
+                                 const RepeatsOfObservable& repeats, std::vector<Scatter>* taken) const {
+  TableModel joint = emulator.model(both, options.emulator, inputs.settings);
+  if (options.emulator.runs_per_observation > 0) {
+    std::vector<Scatter> scatter = set_scatter(joint, count, repeats);
+    if (taken) *taken = std::move(scatter);
+  }
+  return joint;
+}
+
+TableModel Question::model_of(const Emulator& emulator, const Eigen::VectorXd& values,
+                              const RepeatsOfObservable& repeats) const {
+  if (!reference) return emulator.model(table, options.emulator, inputs.settings).without(options.without);
+  return given_reference(joint_model(emulator, joint_, joint_count_, repeats), values, options.transfer,
+                         inputs.settings)
+      .without(options.without);
+}
+
+TableModel Question::extended(const ReducedTable& added) const {
+  const ReducedTable rows = joined(fit_table(), added);
+  if (!reference) return inputs.emulator.model(rows, options.emulator, inputs.settings).without(options.without);
+  std::vector<int> count = reference->rows.count;
+  for (const Eigen::Index i : rows_of(table, "fit")) count.push_back(count_[static_cast<std::size_t>(i)]);
+  count.insert(count.end(), added.rows.size(), 1);
+  return given_reference(joint_model(inputs.emulator, joined(reference->rows.table, rows), count, repeats_),
+                         reference->values, options.transfer, inputs.settings)
+      .without(options.without);
+}
+
+TableModel Question::with_such_a_reference() const {
+  const ReducedTable rows = fit_table();
+  const TableModel joint = inputs.emulator.model(joined(rows, rows), options.emulator, inputs.settings);
+  const Eigen::VectorXd expected = expected_reference(joint, static_cast<Eigen::Index>(rows.rows.size()));
+  return given_reference(joint, expected, 0, inputs.settings).without(options.without);
+}
+
+TableModel Question::before_data() const {
+  const TableModel m =
+      reference ? model_of(inputs.emulator, reference->expected, its_repeats_).part(rows_of(table, "fit")) : fit;
+  return m.in_logarithms(TableModel::Values::placeholders);
+}
 
 Threshold Question::threshold() const {
   const auto keep = rows_of(table, "fit");
   return bootstrap_threshold(inputs.emulator, before_data(), inputs.settings, options.seed, [&](const Emulator& e) {
-    return e.model(table, options.emulator, inputs.settings)
-        .without(options.without)
+    return model_of(e, reference ? reference->expected : Eigen::VectorXd(), its_repeats_)
         .part(keep)
-        .in_logarithms(TableModel::NoiseOver::baseline);
+        .in_logarithms(TableModel::Values::placeholders);
   });
+}
+
+TableModel Question::simulated() const {
+  EmulatorOptions single = options.emulator;
+  single.runs_per_observation = 1;
+  return inputs.emulator.model(table, single, inputs.settings);
+}
+
+json Question::reference_json() const {
+  if (!reference) return json();
+  json j = {{"table", fs::path(options.reference).filename().string()},
+            {"rows", reference->rows.table.rows.size()},
+            {"chi2_probability", reference->probability},
+            {"transfer", options.transfer},
+            {"scatter", json::array()}};
+  for (const Scatter& s : reference->scatter)
+    j["scatter"].push_back({{"apparatus", s.apparatus},
+                            {"observable", s.observable},
+                            {"sd", s.sd},
+                            {"degrees_of_freedom", s.degrees_of_freedom},
+                            {"assumed", s.assumed},
+                            {"library", s.library}});
+  return j;
 }
 
 ReducedTable Question::fit_table() const {
@@ -86,7 +262,10 @@ ReducedTable Question::fit_table() const {
   return part;
 }
 
-std::string Question::fingerprint_of_rows() const { return rows_fingerprint(fit.rows, fit.noise); }
+std::string Question::fingerprint_of_rows() const {
+  // with a reference the noise of the change holds the reference's too
+  return rows_fingerprint(fit.rows, reference ? Eigen::MatrixXd(fit_table().covariance) : fit.noise);
+}
 
 std::string Question::fingerprint() const {
   std::vector<std::string> candidates;
@@ -99,6 +278,11 @@ std::string Question::fingerprint() const {
                       options.emulator.runs_per_observation, !options.emulator.use_discrepancy,
                       options.emulator.extrapolate);
   for (const auto& [name, strength] : options.emulator.known) text += fmt::format("|{}={}", name, strength);
+  if (reference) {
+    // the reference comes before the change: its values count
+    text += fmt::format("|{}|{}", options.transfer, rows_fingerprint(reference->rows.table.rows, {}));
+    for (const double value : reference->values) text += fmt::format("|{:.9g}", value);
+  }
   return sha256_of_text(text);
 }
 
@@ -115,6 +299,13 @@ json Question::provenance() const {
                   {"runs_per_observation", options.emulator.runs_per_observation},
                   {"extrapolate", options.emulator.extrapolate},
                   {"no_discrepancy", !options.emulator.use_discrepancy}};
+  if (reference) {
+    add_hash(options.reference);
+    add_hash(covariance_file(options.reference));
+    p["options"]["reference"] = fs::path(options.reference).filename().string();
+    p["options"]["reference_only"] = options.reference_only;
+    p["options"]["transfer"] = options.transfer;
+  }
   p["without"] = options.without;
   p["known"] = json::object();
   for (const auto& [name, strength] : options.emulator.known) p["known"][name] = strength;

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <fstream>
 
 #include "core/bad_input.h"
@@ -22,21 +23,17 @@ json threshold_json(const Threshold& t) {
 }  // namespace
 
 json isolability_json(const Question& question, const Isolability& i, const Threshold& threshold) {
-  json j = {{"schema", 1}, {"effects", i.effects}};
-  j["detectability"] = json::object();
-  j["separation"] = json::object();
-  for (std::size_t a = 0; a < i.effects.size(); ++a) {
-    j["detectability"][i.effects[a]] = i.detectability[static_cast<Eigen::Index>(a)];
-    for (std::size_t b = 0; b < i.effects.size(); ++b)
-      if (a != b)
-        j["separation"][i.effects[a]][i.effects[b]] =
-            i.separation(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(b));
+  json j = {{"schema", 2}};
+  j.update(to_json(i));
+  // for a reader: what these tests can show of each effect at best
+  j["summary"] = json::object();
+  for (const std::string& e : i.effects) {
+    const double s = i.farthest(e), detectable = i.detectable_from(e), isolable = i.isolable_from(e);
+    json& own =
+        j["summary"][e] = {{"farthest", s}, {"from_nothing", i.from_nothing(e, s)}, {"group", i.group_of(e, s)}};
+    if (!std::isnan(detectable)) own["detectable_from"] = detectable;  // absent: never
+    if (!std::isnan(isolable)) own["isolable_from"] = isolable;
   }
-  j["groups"] = json::object();
-  for (std::size_t a = 0; a < i.effects.size(); ++a) j["groups"][i.effects[a]] = i.groups[a];
-  j["detectable"] = json::array();
-  for (const std::string& e : i.effects)
-    if (i.detectable(e)) j["detectable"].push_back(e);
   j["threshold"] = threshold_json(threshold);
   j["fingerprint"] = question.fingerprint();
   j["rows"] = question.fingerprint_of_rows();

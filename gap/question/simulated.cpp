@@ -51,7 +51,7 @@ SimulatedValues simulated_values(const Inputs& inputs, const std::vector<Observa
   table.covariance.resize(n, n);
   table.covariance.setIdentity();
   const TableModel m =
-      inputs.emulator.model(table, options, inputs.settings).in_logarithms(TableModel::NoiseOver::baseline);
+      inputs.emulator.model(table, options, inputs.settings).in_logarithms(TableModel::Values::placeholders);
   SimulatedValues result{{}, m.outside, m.silent};
   for (Eigen::Index i = 0; i < n; ++i) {
     const bool logarithmic = m.logarithmic[i] != 0;

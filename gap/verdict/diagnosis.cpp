@@ -40,10 +40,16 @@ std::vector<double> median_strengths(const ModelEvidence& m) {
 // Chance of a chi^2 as large as the table's about the model's most probable strengths.
 double fit_probability(const TableModel& model, const ModelEvidence& m) {
   const auto effects = responses(model, m.effects);
-  const auto s = best_strengths(m);
+  const std::vector<double> s = best_strengths(m);
   const VectorXd d = model.observed - mean_at(model, effects, s);
   const double chi2 = chi_squared(d, covariance_at(model, effects, s), model);
   return chi2_exceedance(chi2, std::max<double>(1, static_cast<double>(model.size() - static_cast<Index>(s.size()))));
+}
+
+// By the rivals' log odds, or because no gap alone leaves too much: a gap that
+// no rival resembles has no large odds.
+bool is_gap(const TableModel& model, double log_odds, const Threshold& threshold, const Settings& settings) {
+  return log_odds > threshold.log_odds || fit_probability(model, ModelEvidence()) < settings.misfit_probability;
 }
 
 std::vector<Index> rows_with_role(const TableModel& model, const char* role) {
@@ -145,7 +151,7 @@ double absorbable_part(const TableModel& model, const VectorXd& gap) {
 
 VectorXd recalibrated_parameters(const TableModel& values, const std::vector<std::string>& effects,
                                  const std::vector<double>& strengths) {
-  const TableModel fit = values.in_logarithms(TableModel::NoiseOver::observed);
+  const TableModel fit = values.in_logarithms(TableModel::Values::measured);
   const auto response = responses(fit, effects);
   const VectorXd rest = fit.observed - mean_at(fit, response, strengths) + fit.family_shift;
   // The members' own scatter leaves the covariance: it is what is asked for.
@@ -162,8 +168,10 @@ VectorXd recalibrated_parameters(const TableModel& values, const std::vector<std
 
 const ModelEvidence* placebo_of(const Diagnosis& diagnosis, const Isolability& isolability) {
   std::set<std::string> own(diagnosis.group.begin(), diagnosis.group.end());
-  for (const std::string& name : diagnosis.applied())
-    for (const std::string& member : isolability.group_of(name)) own.insert(member);
+  const auto applied = diagnosis.applied();
+  for (std::size_t e = 0; e < applied.size(); ++e)
+    for (const std::string& member : isolability.group_of(applied[e], diagnosis.strengths[e].interval.value))
+      own.insert(member);
   for (const ModelEvidence& m : diagnosis.models)
     if (m.effects.size() == 1 && own.count(m.effects[0]) == 0) return &m;
   return nullptr;
@@ -263,7 +271,7 @@ std::optional<Shrink> predicted_shrink(const TableModel& model, const Diagnosis&
 }
 
 Diagnosis diagnose(const TableModel& model, const Threshold& threshold, const Settings& settings) {
-  const TableModel fit = model.part(rows_with_role(model, "fit")).in_logarithms(TableModel::NoiseOver::observed);
+  const TableModel fit = model.part(rows_with_role(model, "fit")).in_logarithms(TableModel::Values::measured);
   Diagnosis d;
   d.fit_rows = static_cast<int>(fit.size());
   d.check_rows = static_cast<int>(model.size()) - d.fit_rows;
@@ -274,7 +282,7 @@ Diagnosis diagnose(const TableModel& model, const Threshold& threshold, const Se
   d.log_odds = largest_log_odds(fit, settings, fit.observed)[0];
   require_finite(d.log_odds, "the log odds of the best rival", fit);
   require_finite(threshold.log_odds, "the threshold", fit);
-  const Judgement v = judged(fit, d.models, d.log_odds > threshold.log_odds, settings);
+  const Judgement v = judged(fit, d.models, is_gap(fit, d.log_odds, threshold, settings), settings);
   d.verdict = v.verdict;
   d.named = v.named;
   d.group = v.group;
@@ -303,8 +311,8 @@ Diagnosis diagnose(const TableModel& model, const Threshold& threshold, const Se
   // What would be said with other assumptions; the threshold stays.
   const auto vary = [&](const std::string& change, const TableModel& changed, const Settings& other) {
     std::vector<ModelEvidence> models = all_evidence(changed, other, 5);
-    const bool gap_found = largest_log_odds(changed, other, changed.observed)[0] > threshold.log_odds;
-    const Judgement verdict = judged(changed, models, gap_found, other);
+    const double log_odds = largest_log_odds(changed, other, changed.observed)[0];
+    const Judgement verdict = judged(changed, models, is_gap(changed, log_odds, threshold, other), other);
     double rivals = 0;
     const ModelEvidence* top = nullptr;
     for (const ModelEvidence& m : models) {
@@ -442,6 +450,8 @@ nlohmann::ordered_json diagnosis_json(const Diagnosis& d, const nlohmann::ordere
 }
 
 std::string verdict_sentence(const Diagnosis& d) {
+  const std::string there = d.of_a_change ? "Something has changed" : "There is a gap";
+  const std::string none = d.of_a_change ? "no change" : "no gap";
   const auto probability = [&](const std::string& name) {
     const ModelEvidence* m = d.model(name);
     return m ? 100 * m->probability : 0.0;
@@ -451,6 +461,11 @@ std::string verdict_sentence(const Diagnosis& d) {
     return fmt::format("{} at strength {:.3g}{} (90 %: {:.3g} to {:.3g})", s.name, s.interval.value,
                        s.unit == "1" ? "" : " " + s.unit, s.interval.low90, s.interval.high90);
   };
+  if (d.verdict == Verdict::no_gap && d.of_a_change)
+    return fmt::format(
+        "No change: the measurement agrees with what the reference state lets expect within everything that is "
+        "uncertain (probability of no change {:.0f} %).",
+        probability("no_gap"));
   if (d.verdict == Verdict::no_gap)
     return fmt::format(
         "No gap: the measurement agrees with the calibrated simulation within everything that is uncertain "
@@ -458,10 +473,9 @@ std::string verdict_sentence(const Diagnosis& d) {
         probability("no_gap"));
   if (d.verdict == Verdict::unknown)
     return fmt::format(
-        "There is a gap, and none of the effects in the library nor any two of them explain it (unknown {:.0f} %, no "
-        "gap "
+        "{}, and none of the effects in the library nor any two of them explain it (unknown {:.0f} %, {} "
         "{:.0f} %).",
-        probability("unknown"), probability("no_gap"));
+        there, probability("unknown"), none, probability("no_gap"));
   if (d.verdict == Verdict::ambiguous) {
     constexpr std::size_t kSaid = 3;  // the whole group stands in the table below the sentence
     std::vector<std::string> rivals;
@@ -473,13 +487,13 @@ std::string verdict_sentence(const Diagnosis& d) {
       rivals.push_back(fmt::format("{} {:.0f} % ({:.0f} % with its pairs)", name, probability(name), with_pairs));
     }
     if (d.group.size() > kSaid) rivals.push_back(fmt::format("{} others", d.group.size() - kSaid));
-    return fmt::format("There is a gap, and these data do not settle its cause: {}; unknown {:.0f} %, no gap {:.0f} %.",
-                       fmt::join(rivals, ", "), probability("unknown"), probability("no_gap"));
+    return fmt::format("{}, and these data do not settle its cause: {}; unknown {:.0f} %, {} {:.0f} %.", there,
+                       fmt::join(rivals, ", "), probability("unknown"), none, probability("no_gap"));
   }
   if (d.named.size() == 2)
-    return fmt::format("There is a gap, explained by two effects together: {}, and {} (probability {:.0f} %).",
-                       strength(0), strength(1), probability(d.named[0] + "+" + d.named[1]));
-  return fmt::format("There is a gap, explained by {} (probability {:.0f} %).", strength(0), probability(d.named[0]));
+    return fmt::format("{}, explained by two effects together: {}, and {} (probability {:.0f} %).", there, strength(0),
+                       strength(1), probability(d.named[0] + "+" + d.named[1]));
+  return fmt::format("{}, explained by {} (probability {:.0f} %).", there, strength(0), probability(d.named[0]));
 }
 
 }  // namespace vielto::gap

@@ -2,13 +2,12 @@
 // Purpose: the verdict on one observation table, and everything that stands beside it.
 //
 // Verdict, from the evidence of all models (evidence.h):
-//   no_gap     the best rival's log odds stay below the bootstrap threshold
+//   no_gap     the best rival's log odds stay below the bootstrap threshold, and the table's chi^2 about no gap is not
+//              rarer than misfit_probability: a gap that no rival resembles has no odds, but it is one
 //   unknown    the unnamed gap holds more than unknown_probability of the rivals' probability, or the most probable
-//   named
-//              model does not fit (chi^2 of the table about its most probable strengths, rarer than misfit_probability)
+//              named model does not fit (chi^2 about its most probable strengths, rarer than misfit_probability)
 //   named      one model holds name_probability of the rivals' probability; or one effect does, alone and in pairs
-//   together,
-//              and alone it is more probable than any pair
+//              together, and alone it is more probable than any pair
 //   ambiguous  else; the group is the smallest set of single effects that holds group_probability of the singles'
 // Absorbable by recalibration: with g the gap (of the named effect, else the observed one), A the covariance of the
 // family and N = C(0) - A, the shift the family would take is h = A (A + N)^-1 g and the part absorbed 1 - (g-h)' N^-1
@@ -95,6 +94,7 @@ struct Diagnosis {
   std::vector<Sensitivity> sensitivity;
   std::vector<std::string> notes;
   int fit_rows = 0, check_rows = 0;
+  bool of_a_change = false;  // against a reference state: what has changed, not why the simulation is off
 
   const ModelEvidence* model(const std::string& name) const;
   // The effects the after runs are made with: the named ones or the best of the group; none for no_gap and unknown.
@@ -119,7 +119,8 @@ Diagnosis diagnose(const TableModel& model, const Threshold& threshold, const Se
 Eigen::VectorXd recalibrated_parameters(const TableModel& fit, const std::vector<std::string>& effects,
                                         const std::vector<double>& strengths);
 
-// The best single effect from outside the diagnosis' own and their group.
+// The best single effect from outside the diagnosis' own and their groups at
+// the estimated strengths.
 const ModelEvidence* placebo_of(const Diagnosis& diagnosis, const Isolability& isolability);
 
 // The shrink from simulated values of the check rows, all in the order of `rows`. The interval of `closed` redraws the

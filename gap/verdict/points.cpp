@@ -26,7 +26,7 @@ struct Rows {
   TableModel model;
   std::vector<Index> fit;
 
-  explicit Rows(const TableModel& natural) : model(natural.in_logarithms(TableModel::NoiseOver::observed)) {
+  explicit Rows(const TableModel& natural) : model(natural.in_logarithms(TableModel::Values::measured)) {
     for (Index i = 0; i < model.size(); ++i)
       if (model.rows[static_cast<std::size_t>(i)].role == "fit") fit.push_back(i);
   }

@@ -93,8 +93,10 @@ Location locate(const TableModel& model) {
     return MatrixXd(scale.cwiseInverse().asDiagonal() * covariance * scale.cwiseInverse().asDiagonal());
   };
   const MatrixXd v = relative(model.null_covariance());
-  std::vector<MatrixXd> parts;
-  for (const UncertaintySource& source : kUncertaintySources) parts.push_back(relative(model.*source.part));
+  std::vector<std::pair<const char*, MatrixXd>> parts;
+  for (const UncertaintySource& source : kUncertaintySources)
+    if (source.part != &TableModel::reference || !model.reference.isZero(0))
+      parts.emplace_back(source.name, relative(model.*source.part));
   MatrixXd weights = MatrixXd::Zero(model.size(), static_cast<Index>(location.regions.size()));
   std::vector<double> p;
   for (std::size_t r = 0; r < location.regions.size(); ++r) {
@@ -107,9 +109,9 @@ Location locate(const TableModel& model) {
     region.z = mean / region.u;
     region.p = std::erfc(std::fabs(region.z) / std::sqrt(2.0));
     p.push_back(region.p);
-    for (std::size_t s = 0; s < parts.size(); ++s) {
-      const double square = w.dot(parts[s](region.rows, region.rows) * w);
-      region.u_parts.emplace_back(kUncertaintySources[s].name, std::sqrt(std::max(0.0, square)) / information);
+    for (const auto& [name, part] : parts) {
+      const double square = w.dot(part(region.rows, region.rows) * w);
+      region.u_parts.emplace_back(name, std::sqrt(std::max(0.0, square)) / information);
     }
     for (std::size_t i = 0; i < region.rows.size(); ++i)
       weights(region.rows[i], static_cast<Index>(r)) = w[static_cast<Index>(i)] / std::sqrt(information);

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/bad_input.h"
@@ -49,7 +50,7 @@ double separation(const TableModel& model, const Predicted& a, const Predicted& 
 
 std::vector<CandidateTest> read_candidate_tests(const std::string& path) {
   const TomlTable file = TomlTable::read(path);
-  file.only({"test"});
+  file.only({"test", "reference", "repeat"});
   const toml::array* list = file.raw()["test"].as_array();
   if (!list || list->empty()) file.refuse("test", "is no list of tests", "write [[test]]");
   std::vector<CandidateTest> tests;
@@ -162,6 +163,63 @@ NextTest judge_for_unknown(const TableModel& joint, Index present, const Candida
   next.separates = "the gap from none";
   next.separation_now = std::sqrt(now.dot(c.topLeftCorner(present, present).llt().solve(now)));
   next.separation = std::sqrt(gap.dot(c.llt().solve(gap)));
+  next.gain_per_hour = (next.separation - next.separation_now) / next.hours;
+  return next;
+}
+
+std::optional<StateTest> read_state_test(const std::string& path, const std::string& name) {
+  const TomlTable file = TomlTable::read(path);
+  if (!file.has(name)) return std::nullopt;
+  const TomlTable t = file.table(name);
+  t.only({"how", "hours_each"});
+  return StateTest{name, t.text("how"), t.number("hours_each", 0.01, 1e5)};
+}
+
+namespace {
+
+// Only the effects that the model knows: the others cancel.
+Predicted predicted_if_known(const TableModel& model, const ModelEvidence& evidence) {
+  const bool known = std::all_of(evidence.effects.begin(), evidence.effects.end(),
+                                 [&](const std::string& e) { return model.effect(e); });
+  if (known) return predicted(model, evidence);
+  return {VectorXd::Zero(model.size()), MatrixXd::Zero(model.size(), model.size())};
+}
+
+double from_none(const TableModel& model, const VectorXd& gap) {
+  return std::sqrt(std::max(0.0, gap.dot(model.null_covariance().llt().solve(gap))));
+}
+
+}  // namespace
+
+NextTest judge_state(const TableModel& now, const TableModel& then, const CandidateTest& test,
+                     const std::vector<const ModelEvidence*>& open, bool unknown) {
+  NextTest next = described(test);
+  if (unknown) {
+    next.separates = "the gap from none";
+    next.separation_now = from_none(now, now.gap());
+    next.separation = from_none(then, now.gap());
+    next.gain_per_hour = (next.separation - next.separation_now) / next.hours;
+    return next;
+  }
+  double weight = 0, most = -1;
+  for (std::size_t a = 0; a < open.size(); ++a)
+    for (std::size_t b = 0; b < a; ++b) {
+      const double w = open[a]->probability * open[b]->probability;
+      const double before = separation(now, predicted(now, *open[a]), predicted(now, *open[b]), now.size());
+      const double after =
+          separation(then, predicted_if_known(then, *open[a]), predicted_if_known(then, *open[b]), then.size());
+      next.separation_now += w * before;
+      next.separation += w * after;
+      weight += w;
+      if (w * (after - before) > most) {
+        most = w * (after - before);
+        next.separates = open[b]->name() + " from " + open[a]->name();
+      }
+    }
+  if (weight > 0) {
+    next.separation_now /= weight;
+    next.separation /= weight;
+  }
   next.gain_per_hour = (next.separation - next.separation_now) / next.hours;
   return next;
 }

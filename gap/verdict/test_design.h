@@ -13,6 +13,7 @@
 // = [g, Z_cf (C_ff + Z_ff)^-1 g] the gap to be expected, from sqrt(g' C_ff^-1 g) to sqrt(G' C^-1 G).
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -35,6 +36,13 @@ struct NextTest {
 
 std::vector<CandidateTest> read_candidate_tests(const std::string& path);
 
+// "reference" or "repeat" of the file: the table's own tests once more, in the reference state or as they are.
+struct StateTest {
+  std::string name, how;
+  double hours_each = 0;  // a test
+};
+std::optional<StateTest> read_state_test(const std::string& path, const std::string& name);
+
 // The candidates' rows as one table (for the emulator): values and u are set from the baseline by the caller.
 ReducedTable candidate_table(const std::string& path, const CandidateTest& test, const std::string& wall,
                              const std::string& material);
@@ -45,5 +53,9 @@ NextTest judge_candidate(const TableModel& joint, Eigen::Index present, const Ca
 
 // The same for an unknown gap: how far the gap stands from none, now and with the test.
 NextTest judge_for_unknown(const TableModel& joint, Eigen::Index present, const CandidateTest& test);
+
+// The same rows under another model (`then`: with a reference state). Effects that `then` lacks change nothing there.
+NextTest judge_state(const TableModel& now, const TableModel& then, const CandidateTest& test,
+                     const std::vector<const ModelEvidence*>& open, bool unknown);
 
 }  // namespace vielto::gap

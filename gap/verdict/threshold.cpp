@@ -15,7 +15,7 @@ using Eigen::VectorXd;
 
 VectorXd draw_without_gap(const TableModel& truth, std::mt19937_64& random) {
   std::normal_distribution<double> normal;
-  MatrixXd covariance = truth.noise + truth.seed + truth.discrepancy;
+  MatrixXd covariance = truth.noise + truth.seed + truth.discrepancy + truth.reference;
   VectorXd y = truth.baseline;
   if (truth.family_weights.size() > 0) {
     std::discrete_distribution<Index> member(truth.family_weights.data(),

@@ -59,6 +59,7 @@ void add_trends(const TableModel& model, const std::vector<Index>& rows, std::ve
     t.z = t.exponent / t.u;
     t.p = std::erfc(std::fabs(t.z) / std::sqrt(2.0));
     for (const UncertaintySource& source : kUncertaintySources) {
+      if (source.part == &TableModel::reference && model.reference.isZero(0)) continue;
       const double square = weights.row(k) * (model.*source.part)(rows, rows) * weights.row(k).transpose();
       t.u_parts.emplace_back(source.name, std::sqrt(std::max(0.0, square)));
     }

@@ -386,15 +386,24 @@ TEST_F(GapCommand, PredictsWhatTheCalibratedSimulationSaysAndHowSureItIs) {
 TEST_F(GapCommand, IsolabilityIsSealedAndItsThresholdIsTaken) {
   ASSERT_EQ(gap("isolability t.csv --library library --draws 100 --out sealed"), 0) << err_;
   const json i = json::parse(content(folder_ / "sealed/isolability.json"));
-  EXPECT_GT(i["detectability"]["cohesion"], 4);
-  EXPECT_GT(i["separation"]["cohesion"]["shape"], 3);
-  // two effects share a group where neither lies farther than 3 from the other; groups overlap
-  for (const auto& [a, separations] : i["separation"].items()) {
-    const json& group = i["groups"][a];
-    EXPECT_NE(std::find(group.begin(), group.end(), a), group.end());
-    for (const auto& [b, distance] : separations.items())
-      EXPECT_EQ(std::find(group.begin(), group.end(), b) != group.end(), distance <= 3 && i["separation"][b][a] <= 3)
-          << a << " " << b;
+  EXPECT_GT(i["summary"]["cohesion"]["from_nothing"], 4);
+  EXPECT_EQ(i["summary"]["cohesion"]["group"], json({"cohesion"}));
+  EXPECT_LT(i["summary"]["cohesion"]["detectable_from"], 300);
+  // every effect, from nothing and from every rival at the same strengths, 0 at 0
+  for (const auto& [a, table] : i["at_strength"].items()) {
+    const json& s = table["strengths"];
+    ASSERT_TRUE(std::is_sorted(s.begin(), s.end())) << a;
+    EXPECT_EQ(table["from_nothing"].size(), s.size());
+    EXPECT_EQ(table["from_rival"].size(), i["effects"].size() - 1);
+    for (std::size_t k = 0; k < s.size(); ++k)
+      for (const auto& [b, distances] : table["from_rival"].items()) {
+        ASSERT_EQ(distances.size(), s.size()) << a << " " << b;
+        // from the nearest strength of a rival is at most from nothing, which counts the shape error in
+        EXPECT_LE(distances[k].get<double>(), table["from_nothing"][k].get<double>() + 1e-9) << a << " " << b;
+        if (s[k] == 0.0) {
+          EXPECT_EQ(distances[k], 0.0);
+        }
+      }
   }
   EXPECT_EQ(content(folder_ / "sealed/isolability.svg").rfind("<svg", 0), 0u);
   // Values do not matter, conditions and u do.
@@ -416,7 +425,7 @@ TEST_F(GapCommand, IsolabilityIsSealedAndItsThresholdIsTaken) {
   rows_[0].u *= 2;
   write(rows_);
   expect_refusal("was sealed for other rows", "--sealed sealed/isolability.json");
-  replace_in(folder_ / "sealed/isolability.json", "\"schema\": 1", "\"schema\": 2");
+  replace_in(folder_ / "sealed/isolability.json", "\"schema\": 2", "\"schema\": 3");
   expect_refusal("is not what its seal says", "--sealed sealed/isolability.json");
 }
 

@@ -58,7 +58,7 @@ class GapDiagnosis : public testing::Test {
     std::vector<Eigen::Index> keep;
     for (std::size_t i = 0; i < m.rows.size(); ++i)
       if (m.rows[i].role == "fit") keep.push_back(static_cast<Eigen::Index>(i));
-    return m.part(keep).in_logarithms(TableModel::NoiseOver::observed);
+    return m.part(keep).in_logarithms(TableModel::Values::measured);
   }
 
   static fs::path folder_;

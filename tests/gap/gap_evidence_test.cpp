@@ -10,6 +10,7 @@
 
 #include "gap/emulator/discrepancy.h"
 #include "gap/emulator/gaussian_process.h"
+#include "gap/emulator/unknown_gap.h"
 #include "gap/verdict/evidence.h"
 #include "gap/verdict/regions.h"
 #include "gap/verdict/test_design.h"
@@ -36,7 +37,8 @@ TableModel linear_model(const VectorXd& y, const std::vector<VectorXd>& slopes, 
   m.family_members = MatrixXd::Zero(n, 0);
   m.noise = MatrixXd::Identity(n, n) * 0.25;
   m.noise(0, 1) = m.noise(1, 0) = 0.1;
-  for (auto member : {&TableModel::seed, &TableModel::emulator, &TableModel::family, &TableModel::discrepancy})
+  for (auto member : {&TableModel::seed, &TableModel::emulator, &TableModel::family, &TableModel::discrepancy,
+                      &TableModel::reference})
     m.*member = MatrixXd::Zero(n, n);
   m.shape_correlation = MatrixXd::Identity(n, n);
   m.unknown_shapes = {m.shape_correlation};
@@ -229,9 +231,9 @@ TEST(GapRegions, TellTheGapOfLogarithmsAsAFactor) {
   y << 8, 8;
   TableModel m = linear_model(y, {}, 0, 1);
   m.relative.setOnes();
-  m.noise = MatrixXd::Identity(2, 2) * std::pow(0.05 * 8, 2);
+  m.noise = MatrixXd::Identity(2, 2) * std::pow(0.05 * 10, 2);  // over f
   for (Observation& row : m.rows) row.apparatus = "mixer", row.observable = "power", row.speed = 1;
-  const Region r = locate(m.in_logarithms(TableModel::NoiseOver::observed)).regions.at(0);
+  const Region r = locate(m.in_logarithms(TableModel::Values::measured)).regions.at(0);
   EXPECT_NEAR(r.relative_gap, 0.25, 1e-12);
   EXPECT_NEAR(r.u, 0.05 / std::sqrt(2.0), 1e-12);
   EXPECT_NEAR(r.z, std::log(1.25) * std::sqrt(2.0) / 0.05, 1e-9);
@@ -254,23 +256,28 @@ TEST(GapLogarithms, MultiplyWhatTheValuesMultiply) {
   m.family_shift = m.family_members * m.family_weights;
   const MatrixXd centred = m.family_members.colwise() - m.family_shift;
   m.family = centred * m.family_weights.asDiagonal() * centred.transpose() + 0.01 * MatrixXd::Identity(3, 3);
-  const TableModel logs = m.in_logarithms(TableModel::NoiseOver::observed);
+  const TableModel logs = m.in_logarithms(TableModel::Values::measured);
   EXPECT_EQ(logs.logarithmic, (VectorXd(3) << 1, 1, 0).finished());
   const VectorXd sum = mean_at(logs, {&logs.effects[0], &logs.effects[1]}, {1, 1});
   // family: mean of ln 1 and ln 1.2, and of ln 1 and ln 1.1
   EXPECT_NEAR(sum[0], std::log(10 * 1.2 * 0.5) + std::log(1.2) / 2, 1e-12);
   EXPECT_NEAR(sum[1], std::log(10 * 1.3 * 1.1) + std::log(1.1) / 2, 1e-12);
   EXPECT_NEAR(sum[2], 10 + 4 + 2, 1e-12);
-  EXPECT_NEAR(logs.noise(0, 1), 0.1 / (12 * 8), 1e-12);
+  // the noise is over f, and over f + r with an effect
+  EXPECT_NEAR(logs.noise(0, 1), 0.1 / (10 * 10), 1e-12);
+  const EffectResponse& first = logs.effects[0];
+  const MatrixXd with = covariance_at(logs, {&first}, {1}) - logs.uncertain(first, 1);
+  EXPECT_NEAR(with(0, 1) - logs.null_covariance()(0, 1), 0.1 / (12 * 13) - 0.1 / (10 * 10), 1e-12);
+  EXPECT_NEAR(with(2, 2), logs.null_covariance()(2, 2), 1e-12);
   EXPECT_NEAR(logs.noise(1, 2), 0, 1e-12);
-  EXPECT_NEAR(m.in_logarithms(TableModel::NoiseOver::baseline).noise(0, 0), 0.25 / 100, 1e-12);
+  EXPECT_NEAR(m.in_logarithms(TableModel::Values::placeholders).noise(0, 0), 0.25 / 100, 1e-12);
   // Before the data any number may stand in place of a value: what is sealed does not depend on it.
   TableModel blank = m;
   blank.observed.setZero();
-  EXPECT_EQ(blank.in_logarithms(TableModel::NoiseOver::baseline).logarithmic, logs.logarithmic);
-  EXPECT_EQ(blank.in_logarithms(TableModel::NoiseOver::baseline).null_covariance(),
-            m.in_logarithms(TableModel::NoiseOver::baseline).null_covariance());
-  EXPECT_EQ(blank.in_logarithms(TableModel::NoiseOver::observed).logarithmic, VectorXd::Zero(3));
+  EXPECT_EQ(blank.in_logarithms(TableModel::Values::placeholders).logarithmic, logs.logarithmic);
+  EXPECT_EQ(blank.in_logarithms(TableModel::Values::placeholders).null_covariance(),
+            m.in_logarithms(TableModel::Values::placeholders).null_covariance());
+  EXPECT_EQ(blank.in_logarithms(TableModel::Values::measured).logarithmic, VectorXd::Zero(3));
   EXPECT_NEAR(logs.discrepancy(0, 0), 0.04, 1e-12);
   EXPECT_NEAR(logs.discrepancy(2, 2), 4, 1e-12);
   EXPECT_NEAR(logs.family(0, 0), std::pow(std::log(1.2) / 2, 2) + 0.0001, 1e-12);
@@ -296,12 +303,12 @@ TEST(GapTrends, AreWhatRegionsCannotShow) {
     slope[i] = m.baseline[i] * std::log(*row.speed);
   }
   const double s = 0.05;
-  m.noise = (s * m.observed).array().square().matrix().asDiagonal();
+  m.noise = (s * m.baseline).array().square().matrix().asDiagonal();
   m.discrepancy = 0.09 * m.baseline * m.baseline.transpose();
   m.family = 0.01 * slope * slope.transpose();
   m.relative.setOnes();
   EXPECT_TRUE(trends_of(m).empty());  // values, not logarithms
-  const TableModel logs = m.in_logarithms(TableModel::NoiseOver::observed);
+  const TableModel logs = m.in_logarithms(TableModel::Values::measured);
   const auto trends = trends_of(logs);
   ASSERT_EQ(trends.size(), 2u);
   const Trend &speed = trends[trends[0].condition == "speed" ? 0 : 1],
@@ -318,7 +325,7 @@ TEST(GapTrends, AreWhatRegionsCannotShow) {
   EXPECT_TRUE(trends_of(logs.part({0, 3})).empty());
   for (Observation& row : m.rows) row.speed = 1, row.fill = std::nullopt, row.tilt = 0;
   m.rows[3].tilt = 45;
-  EXPECT_TRUE(trends_of(m.in_logarithms(TableModel::NoiseOver::observed)).empty());
+  EXPECT_TRUE(trends_of(m.in_logarithms(TableModel::Values::measured)).empty());
 }
 
 TEST(GapSmoothing, ResponseIsZeroAtZeroAndLearnsACurve) {
@@ -336,6 +343,44 @@ TEST(GapSmoothing, ResponseIsZeroAtZeroAndLearnsACurve) {
   EXPECT_EQ(p.mean[0], 0);
   EXPECT_EQ(p.covariance(0, 0), 0);
   EXPECT_NEAR(p.mean[1], truth(0.6, 0.25), 0.004);  // 2 % of the response, four times the noise
+}
+
+// One run at t = 1 that shows 0, known to 0.05: for an amplitude a in units of that, the response has the variance
+// 0.05^2 a^2/(1 + a^2) left and the probability (1 + a^2)^-1/2 over their sum. The most probable amplitude alone (0.03)
+// would say +-0.0015.
+TEST(GapSmoothing, AmplitudesAreAveraged) {
+  const GaussianProcess gp(GaussianProcess::Form::response, {{1, VectorXd::Zero(1), {}}}, VectorXd::Zero(1),
+                           MatrixXd::Constant(1, 1, 0.0025));
+  double sum = 0, variance = 0;
+  for (const double a : {0.03, 0.1, 0.3, 1.0, 3.0}) {
+    const double p = 1 / std::sqrt(1 + a * a);
+    sum += p;
+    variance += p * a * a / (1 + a * a) * 0.0025;
+  }
+  const auto p = gp.at({{1, VectorXd::Zero(1), {}}});
+  EXPECT_EQ(p.mean[0], 0);
+  EXPECT_NEAR(p.covariance(0, 0), variance / sum, 1e-9);
+  EXPECT_GT(std::sqrt(p.covariance(0, 0)), 0.02);
+}
+
+// What a bench shows has a name: a gap that nobody named does not move it, and gains nothing from a bench row that is
+// off.
+TEST(GapUnknown, MovesNoBenchRow) {
+  VectorXd y(2), a(2);
+  y << 10, 15;
+  a << 3, 3;
+  TableModel m = linear_model(y, {a}, 0, 1);
+  m.noise(0, 1) = m.noise(1, 0) = 0;
+  m.rows[0].apparatus = "mixer";
+  m.rows[1].apparatus = "bench";
+  Settings settings = Settings::read(VIELTO_SOURCE_DIR "/libraries/diagnosis.toml");
+  set_unknown_gap(m, {VectorXd::Zero(0), VectorXd::Zero(0)}, settings);
+  EXPECT_GT(m.unknown_scale[0], 0);
+  EXPECT_EQ(m.unknown_scale[1], 0);
+  EXPECT_LE(unknown_evidence(m, settings).log_evidence, no_gap_evidence(m).log_evidence);
+  m.rows[1].apparatus = "mixer";
+  set_unknown_gap(m, {VectorXd::Zero(0), VectorXd::Zero(0)}, settings);
+  EXPECT_GT(unknown_evidence(m, settings).log_evidence, no_gap_evidence(m).log_evidence + 1);
 }
 
 // Stated errors of the smoothed values hold: over many noisy libraries the squared error over the stated variance is 1.
@@ -384,6 +429,19 @@ TEST(GapDiscrepancy, RecoversItsSize) {
   double squares = 0;
   for (const LawDifference& law : laws) squares += law.difference.squaredNorm() / 18;
   EXPECT_GT(estimate_discrepancy(laws).sd, std::sqrt(std::max(0.0, squares - 0.0001)));
+}
+
+// Without a law the prior stands: half normal with a spread of 0.2, of which
+// the root of the mean square is 0.2 (cut off at 0.47, beyond which 2 % lie
+// with 10 % of the mean square); laws that differ by nothing leave far less.
+TEST(GapDiscrepancy, PriorIsHalfNormal) {
+  EXPECT_NEAR(estimate_discrepancy({}).sd, 0.2, 0.02);
+  LawDifference none;
+  none.c = {VectorXd::Zero(1)};
+  none.difference = VectorXd::Zero(1);
+  none.noise = MatrixXd::Constant(1, 1, 1e-4);
+  EXPECT_LT(estimate_discrepancy({none, none, none}).sd, 0.05);
+  EXPECT_GT(estimate_discrepancy({none, none, none}).sd, 0.005);
 }
 
 }  // namespace

@@ -9,13 +9,13 @@ LIBRARY = pathlib.Path(__file__).resolve().parents[2] / "scripts/library"
 
 with tempfile.TemporaryDirectory(prefix="vielto-detectability-") as name:
     folder = pathlib.Path(name)
-    for tests, distances, detectable in (("few", {"a": 1.04}, []), ("all", {"a": 4.2, "b": 9.96}, ["a", "b"])):
+    for tests, distances in (("few", {"a": 1.04}), ("all", {"a": 4.2, "b": 9.96})):
         (folder / tests).mkdir()
+        groups = {"a": ["a", "b"], "b": ["b"]}
         answer = dict(
             effects=list(distances),
-            detectability=distances,
-            detectable=detectable,
-            separation={"a": {"b": 3.0, "c": 3.1}, "b": {"a": 3.5}},
+            detectable_distance=4,
+            summary={e: dict(from_nothing=d, group=groups[e]) for e, d in distances.items()},
         )
         (folder / tests / "isolability.json").write_text(json.dumps(answer))
 
@@ -26,7 +26,7 @@ with tempfile.TemporaryDirectory(prefix="vielto-detectability-") as name:
     few, every = f"few={folder / 'few'}", f"and more={folder / 'all'}"
     told = compare(few, every)
     assert told.returncode == 0, told.stderr
-    # the most detectable first; 3 standard deviations are no difference, 3.1 are one
+    # the most detectable first
     assert (folder / "table.csv").read_text() == "effect,few,and more,may be taken for\nb,,10.0,\na,1.0,4.2,b\n"
     assert told.stdout.splitlines()[2:] == ["| `b` | – | **10.0** | – |", "| `a` | 1.0 | **4.2** | `b` |"], told.stdout
     for words, fault in (

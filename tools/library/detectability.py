@@ -13,8 +13,6 @@ import pathlib
 
 from tools import files, tables
 
-APART = 3.0  # standard deviations: what is no further apart may be taken for each other
-
 
 def add_options(parser):
     parser.add_argument("sets", nargs="+", type=name_and_folder, metavar="NAME=FOLDER")
@@ -33,7 +31,7 @@ def work(options):
     found = {name: files.read_json(folder / "isolability.json", mend) for name, folder in options.sets}
     last = found[options.sets[-1][0]]
     rows, told = [], []
-    for effect in sorted(last["effects"], key=lambda e: -last["detectability"][e]):
+    for effect in sorted(last["effects"], key=lambda e: -last["summary"][e]["from_nothing"]):
         cells = [cell(of, effect) for of in found.values()]
         taken = taken_for(last, effect)
         rows.append([effect, *(text for text, _ in cells), " ".join(taken)])
@@ -47,9 +45,13 @@ def work(options):
 
 def cell(of, effect):
     """(distance, whether it is detectable); nothing where the set's tests cannot show the effect"""
-    distance = of["detectability"].get(effect)
-    return ("" if distance is None else f"{distance:.1f}"), effect in of["detectable"]
+    summary = of["summary"].get(effect)
+    return (f"{summary['from_nothing']:.1f}", is_detectable(of, effect)) if summary else ("", False)
+
+
+def is_detectable(of, effect):
+    return of["summary"][effect]["from_nothing"] > of["detectable_distance"]
 
 
 def taken_for(of, effect):
-    return [e for e, d in of["separation"][effect].items() if d <= APART] if effect in of["detectable"] else []
+    return of["summary"][effect]["group"][1:] if is_detectable(of, effect) else []
