@@ -74,6 +74,22 @@ ReducedTable rows_of_both(const ReducedTable& whole, const std::vector<std::stri
   return joint;
 }
 
+// One mean stated for both states would be a change of nothing, known exactly.
+void refuse_one_measurement_twice(const ReducedTable& both, std::size_t n) {
+  const Eigen::MatrixXd u(both.covariance);
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = n; j < both.rows.size(); ++j) {
+      const auto a = static_cast<Eigen::Index>(i), b = static_cast<Eigen::Index>(j);
+      const double own = u(a, a) + u(b, b);
+      if (both.rows[i].value == both.rows[j].value && own - 2 * u(a, b) < 1e-6 * own)
+        throw BadInput(both.path, both.lines[j],
+                       fmt::format("shares value and error with {}: one measurement stated for both states shows no "
+                                   "change",
+                                   both.rows[i].test),
+                       "leave it out with --only, or measure each state");
+    }
+}
+
 // Rows of a table from `begin` on, `count` of them.
 ReducedTable section(const ReducedTable& table, std::size_t begin, std::size_t count) {
   ReducedTable part = table;
@@ -115,12 +131,14 @@ Question::Question(QuestionOptions asked) : options(std::move(asked)), inputs(op
 void Question::read_tables() {
   if (options.reference.empty()) {
     table = only_rows(read_reduced_table(options.table), options.only);
+    add_repeats(table, repeats_);
     return;
   }
   std::size_t n = 0;
   ReducedTable both;
   if (options.reference == options.table) {
     both = rows_of_both(read_reduced_table(options.table), options.reference_only, options.only, n);
+    refuse_one_measurement_twice(both, n);
   } else {
     const ReducedTable first = only_rows(read_reduced_table(options.reference), options.reference_only);
     // for messages that name the reference's own lines
@@ -185,9 +203,17 @@ TableModel Question::joint_model(const Emulator& emulator, const ReducedTable& b
   return joint;
 }
 
+TableModel Question::by_itself(const Emulator& emulator, const ReducedTable& rows,
+                               const RepeatsOfObservable& repeats) const {
+  TableModel m = emulator.model(rows, options.emulator, inputs.settings);
+  if (options.emulator.runs_per_observation > 0)
+    for (const Scatter& s : raise_scatter(m, repeats)) m.notes.push_back(text_of(s));
+  return m.without(options.without);
+}
+
 TableModel Question::model_of(const Emulator& emulator, const Eigen::VectorXd& values,
                               const RepeatsOfObservable& repeats) const {
-  if (!reference) return emulator.model(table, options.emulator, inputs.settings).without(options.without);
+  if (!reference) return by_itself(emulator, table, repeats);
   return given_reference(joint_model(emulator, joint_, joint_count_, repeats), values, options.transfer,
                          inputs.settings)
       .without(options.without);
@@ -195,7 +221,7 @@ TableModel Question::model_of(const Emulator& emulator, const Eigen::VectorXd& v
 
 TableModel Question::extended(const ReducedTable& added) const {
   const ReducedTable rows = joined(fit_table(), added);
-  if (!reference) return inputs.emulator.model(rows, options.emulator, inputs.settings).without(options.without);
+  if (!reference) return by_itself(inputs.emulator, rows, repeats_);
   std::vector<int> count = reference->rows.count;
   for (const Eigen::Index i : rows_of(table, "fit")) count.push_back(count_[static_cast<std::size_t>(i)]);
   count.insert(count.end(), added.rows.size(), 1);

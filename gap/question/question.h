@@ -78,6 +78,8 @@ class Question {
   // Reference and changed rows together; `count` repeats behind each.
   TableModel joint_model(const Emulator& emulator, const ReducedTable& joint, const std::vector<int>& count,
                          const RepeatsOfObservable& repeats, std::vector<Scatter>* taken = nullptr) const;
+  // Rows without a reference, of single runs.
+  TableModel by_itself(const Emulator& emulator, const ReducedTable& rows, const RepeatsOfObservable& repeats) const;
   // `reference`: the reference's values or expected ones.
   TableModel model_of(const Emulator& emulator, const Eigen::VectorXd& reference,
                       const RepeatsOfObservable& repeats) const;

@@ -8,7 +8,7 @@
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 
-#include "gap/library/condition.h"
+#include "core/condition.h"
 
 namespace vielto::gap {
 namespace {
@@ -17,8 +17,9 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr int kLeastDegrees = 3;
+// What the repeats cannot exclude yet: three times the library's scatter, with the weight of three degrees of freedom.
 constexpr double kAssumedTimesLibrary = 3;
+constexpr int kAssumedDegrees = 3;
 
 std::string place_of(const Observation& row, bool with_role) {
   return fmt::format("{},{},{},{},{},{}", row.apparatus, row.observable, conditions_text(row), row.wall, row.material,
@@ -100,24 +101,61 @@ void add_repeats(const ReducedTable& table, RepeatsOfObservable& repeats) {
   }
 }
 
-std::vector<Scatter> set_scatter(TableModel& model, const std::vector<int>& count, const RepeatsOfObservable& repeats) {
+namespace {
+
+std::map<std::pair<std::string, std::string>, std::vector<Index>> rows_of_observables(const TableModel& model) {
   std::map<std::pair<std::string, std::string>, std::vector<Index>> rows;
   for (std::size_t i = 0; i < model.rows.size(); ++i)
     if (model.rows[i].apparatus != "bench")
       rows[{model.rows[i].apparatus, model.rows[i].observable}].push_back(static_cast<Index>(i));
+  return rows;
+}
+
+double unit_of(const TableModel& model, Index i) { return model.relative[i] > 0 ? model.baseline[i] : 1.0; }
+
+// Of one run, relative where effects multiply, mean over rows.
+double library_variance(const TableModel& model, const std::vector<Index>& rows) {
+  double sum = 0;
+  for (const Index i : rows) sum += model.seed(i, i) / std::pow(unit_of(model, i), 2);
+  return sum / static_cast<double>(rows.size());
+}
+
+// What the repeats show, widened for few.
+double shown_variance(const Repeats& r) {
+  const int degrees = r.degrees_of_freedom;
+  return degrees == 0 ? 0 : std::max(0.0, (widening(degrees + kAssumedDegrees) * r.squares - r.stated) / degrees);
+}
+
+}  // namespace
+
+std::vector<Scatter> raise_scatter(TableModel& model, const RepeatsOfObservable& repeats) {
   std::vector<Scatter> taken;
-  for (const auto& [name, own] : rows) {
-    const auto unit = [&](Index i) { return model.relative[i] > 0 ? model.baseline[i] : 1.0; };
-    double library = 0;
-    for (const Index i : own) library += model.seed(i, i) / (unit(i) * unit(i)) / static_cast<double>(own.size());
+  for (const auto& [name, own] : rows_of_observables(model)) {
+    const auto found = repeats.find(name);
+    if (found == repeats.end()) continue;
+    const double library = library_variance(model, own), variance = shown_variance(found->second);
+    if (variance <= library) continue;
+    for (const Index i : own) model.seed(i, i) = std::max(model.seed(i, i), variance * std::pow(unit_of(model, i), 2));
+    taken.push_back(
+        {name.first, name.second, std::sqrt(variance), std::sqrt(library), found->second.degrees_of_freedom, false});
+  }
+  return taken;
+}
+
+std::vector<Scatter> set_scatter(TableModel& model, const std::vector<int>& count, const RepeatsOfObservable& repeats) {
+  std::vector<Scatter> taken;
+  for (const auto& [name, own] : rows_of_observables(model)) {
+    const double library = library_variance(model, own);
     const auto found = repeats.find(name);
     const Repeats r = found == repeats.end() ? Repeats() : found->second;
-    const double degrees = std::max(r.degrees_of_freedom, 1);
-    const bool assumed = r.degrees_of_freedom < kLeastDegrees;
-    const double wide = assumed ? 1 : widening(r.degrees_of_freedom);
-    double variance = std::max(0.0, (wide * r.squares - r.stated) / degrees);
-    if (assumed) variance = std::max(variance, kAssumedTimesLibrary * kAssumedTimesLibrary * library);
-    for (const Index i : own) model.seed(i, i) = variance * unit(i) * unit(i) / count[static_cast<std::size_t>(i)];
+    const int degrees = r.degrees_of_freedom;
+    double variance = shown_variance(r);
+    const double least =
+        1.0 * kAssumedDegrees / (kAssumedDegrees + degrees) * kAssumedTimesLibrary * kAssumedTimesLibrary * library;
+    const bool assumed = variance < least;
+    variance = std::max(variance, least);
+    for (const Index i : own)
+      model.seed(i, i) = variance * std::pow(unit_of(model, i), 2) / count[static_cast<std::size_t>(i)];
     taken.push_back({name.first, name.second, std::sqrt(variance), std::sqrt(library), r.degrees_of_freedom, assumed});
   }
   return taken;
@@ -131,12 +169,13 @@ std::string text_of(const Scatter& s) {
   // two single runs, 99 %
   const double change = 2.58 * std::sqrt(2.0) * 100;
   return fmt::format(
-      "{} {}: {}, so that the scatter of a run is not known; {:.2g} % is assumed, three times the library's. Between "
-      "single runs that hides changes below {:.2g} %, with a scatter as the library's {:.2g} %: repeat tests",
+      "{} {}: {}; {:.2g} % beyond its u is assumed of one run, from three times the library's {:.2g} %. Between single "
+      "runs that hides changes below {:.2g} %, with a scatter as the library's {:.2g} %: repeat tests",
       s.apparatus, s.observable,
-      s.degrees_of_freedom == 0 ? std::string("no test is repeated")
-                                : fmt::format("repeats leave {} degrees of freedom only", s.degrees_of_freedom),
-      100 * s.sd, change * s.sd, change * s.library);
+      s.degrees_of_freedom == 0
+          ? std::string("no test is repeated, so that the scatter of a run is not known")
+          : fmt::format("repeats scatter little, but {} degrees of freedom exclude little", s.degrees_of_freedom),
+      100 * s.sd, 100 * s.library, change * s.sd, change * s.library);
 }
 
 }  // namespace vielto::gap

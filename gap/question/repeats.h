@@ -5,10 +5,12 @@
 //
 // Equation: over all groups g of k_g repeats of an observable, s^2 = sum (y - mean_g)^2 / v with v = sum (k_g - 1)
 // degrees of freedom, in logarithms for values above 0. Of it the stated noise U explains w^2 = sum_g (tr U_g - 1' U_g
-// 1 / k_g) / v, errors that repeats share not at all. The variance of a run is S = t^2/z^2 s^2 - w^2, at least 0, where
-// t and z are the 99.5 % quantiles of Student's t with v degrees of freedom and of the normal distribution: few repeats
-// may have scattered little by chance. Below 3 degrees of freedom a scatter of three times the library's seeds stands
-// for it, if that is more, and is told: runs of another law scattered by that much.
+// 1 / k_g) / v, errors that repeats share not at all. The variance of a run is S = t^2/z^2 s^2 - w^2, where t and z are
+// the 99.5 % quantiles of Student's t with v + 3 degrees of freedom and of the normal distribution: few repeats may have
+// scattered little by chance. Runs have heavy tails, single hard nips, which few repeats need not show at all: S is at
+// least 3/(3 + v) (3 s_0)^2, s_0 the scatter of the library's seeds. Runs of another law and grain scattered by 0.9 to 5
+// times as much, 3 in the root of the mean square; that counts as three degrees of freedom. Where it stands for S, it is
+// told with what it costs.
 #pragma once
 
 #include <Eigen/Dense>
@@ -46,6 +48,10 @@ struct Scatter {
 
 // Puts S/count in place of the seeds' scatter of each row (bench rows have none). What was taken, by observable.
 std::vector<Scatter> set_scatter(TableModel& model, const std::vector<int>& count, const RepeatsOfObservable& repeats);
+
+// Without a reference calibration and law hide some of it, so that the library's scatter stands unless repeats show
+// more (rows are single runs). What was raised.
+std::vector<Scatter> raise_scatter(TableModel& model, const RepeatsOfObservable& repeats);
 
 std::string text_of(const Scatter& scatter);
 
