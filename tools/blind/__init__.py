@@ -5,9 +5,15 @@ A withheld case is a table of observations made from a law and effects that the 
 FOLDER/check/truth, its answer in FOLDER/answers.
 """
 from tools import command_line
-from tools.blind import count_answers, diagnose, hide, list_strong
+from tools.blind import count_answers, diagnose, hide, list_strong, robust
 
-COMMANDS = {"hide": hide, "diagnose": diagnose, "list-strong": list_strong, "count-answers": count_answers}
+COMMANDS = {
+    "hide": hide,
+    "diagnose": diagnose,
+    "list-strong": list_strong,
+    "count-answers": count_answers,
+    "robust": robust,
+}
 
 
 def main():
