@@ -6,11 +6,11 @@
 // Equation: over all groups g of k_g repeats of an observable, s^2 = sum (y - mean_g)^2 / v with v = sum (k_g - 1)
 // degrees of freedom, in logarithms for values above 0. Of it the stated noise U explains w^2 = sum_g (tr U_g - 1' U_g
 // 1 / k_g) / v, errors that repeats share not at all. The variance of a run is S = t^2/z^2 s^2 - w^2, where t and z are
-// the 99.5 % quantiles of Student's t with v + 3 degrees of freedom and of the normal distribution: few repeats may have
-// scattered little by chance. Runs have heavy tails, single hard nips, which few repeats need not show at all: S is at
-// least 3/(3 + v) (3 s_0)^2, s_0 the scatter of the library's seeds. Runs of another law and grain scattered by 0.9 to 5
-// times as much, 3 in the root of the mean square; that counts as three degrees of freedom. Where it stands for S, it is
-// told with what it costs.
+// the 99.5 % quantiles of Student's t with v + 3 degrees of freedom and of the normal distribution: few repeats may
+// have scattered little by chance. Runs have heavy tails, single hard nips, which few repeats need not show at all: S
+// is at least 3/(3 + v) (3 s_0)^2, s_0 the scatter of the library's seeds. Runs of another law and grain scattered by
+// 0.9 to 5 times as much, 3 in the root of the mean square; that counts as three degrees of freedom. Where it stands
+// for S, it is told with what it costs.
 #pragma once
 
 #include <Eigen/Dense>
