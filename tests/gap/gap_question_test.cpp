@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "core/bad_input.h"
+#include "core/seal.h"
 #include "core/sha256.h"
 #include "gap/question/sealed.h"
 #include "gap_folder.h"
