@@ -64,19 +64,21 @@ TableModel TableModel::in_logarithms(Values values) const {
   using Eigen::MatrixXd;
   using Eigen::VectorXd;
   TableModel p = *this;
-  VectorXd over_f = VectorXd::Ones(size());
+  VectorXd over_f = VectorXd::Ones(size()), over_noise = over_f;
   for (Index i = 0; i < size(); ++i) {
     if (relative[i] == 0 || (values == Values::measured && observed[i] <= 0)) continue;
     p.logarithmic[i] = p.scale[i] = 1;
     p.relative[i] = 0;  // what multiplied adds up
     over_f[i] = 1 / baseline[i];
+    over_noise[i] = values == Values::measured ? 1 / observed[i] : over_f[i];
     p.observed[i] = std::log(observed[i]);
     p.baseline[i] = std::log(baseline[i]);
     p.family_members.row(i) = (family_members.row(i).array() / baseline[i]).log1p();
     p.unknown_scale[i] /= baseline[i];
   }
-  for (auto member : {&TableModel::noise, &TableModel::seed, &TableModel::emulator, &TableModel::family,
-                      &TableModel::discrepancy, &TableModel::reference})
+  p.noise = over_noise.asDiagonal() * noise * over_noise.asDiagonal();
+  for (auto member : {&TableModel::seed, &TableModel::emulator, &TableModel::family, &TableModel::discrepancy,
+                      &TableModel::reference})
     p.*member = over_f.asDiagonal() * (this->*member) * over_f.asDiagonal();
   if (family_weights.size() > 0) {
     // the members' own scatter anew, the emulator's error of them stays

@@ -72,9 +72,9 @@ struct TableModel {
   // x over the scale; 0 where an observable has no size of its own (the zero of an idle run), so that effects add up
   // there.
   Eigen::VectorXd over_scale(const Eigen::VectorXd& x) const;
-  // The same with logarithms in the rows that are relative, covariances to first order, all over f: an error of u means
-  // as much of a logarithm as the value that the model has, not the one that the error itself has moved (covariance_at
-  // takes f + r). Values::measured: rows with a value above 0 only; placeholders: no value counts yet.
+  // The same with logarithms in the rows that are relative, covariances to first order: of what is simulated over f, of
+  // u over the measured value. Errors that rows share tie measured values to each other, and over f the tie would be
+  // broken. Values::measured: rows with a value above 0 only; placeholders: no value counts yet, all is over f.
   enum class Values { measured, placeholders };
   TableModel in_logarithms(Values values) const;
   // Only the rows with `keep`.

@@ -134,15 +134,7 @@ VectorXd mean_at(const TableModel& model, const Effects& effects, const std::vec
 
 MatrixXd covariance_at(const TableModel& model, const Effects& effects, const std::vector<double>& strengths) {
   MatrixXd c = model.null_covariance();
-  if (effects.empty()) return c;
-  VectorXd change = VectorXd::Zero(model.size());
-  for (std::size_t e = 0; e < effects.size(); ++e) {
-    c += model.uncertain(*effects[e], strengths[e]);
-    change += effects[e]->response(strengths[e]);
-  }
-  // u is an error of the value: over f + r, where null_covariance has it over f
-  const VectorXd over = (model.logarithmic.array() > 0).select((-change.array()).exp(), 1.0);
-  c += over.asDiagonal() * model.noise * over.asDiagonal() - model.noise;
+  for (std::size_t e = 0; e < effects.size(); ++e) c += model.uncertain(*effects[e], strengths[e]);
   if (effects.size() == 2) {
     const VectorXd both = effects[0]->response(strengths[0]).cwiseProduct(effects[1]->response(strengths[1]));
     const VectorXd r = model.interaction * effects[0]->shape_error * effects[1]->shape_error * model.over_scale(both);

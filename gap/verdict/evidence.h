@@ -45,7 +45,7 @@ double chi_squared(const Eigen::VectorXd& d, const Eigen::MatrixXd& c, const Tab
 double log_normal_density(const Eigen::VectorXd& deviation, const Eigen::MatrixXd& covariance);
 
 // Mean and covariance of y at strengths (of one or two effects of `model`). In
-// logarithms the noise is u over f + r.
+// logarithms the noise is u over the measured value.
 Eigen::VectorXd mean_at(const TableModel& model, const std::vector<const EffectResponse*>& effects,
                         const std::vector<double>& strengths);
 Eigen::MatrixXd covariance_at(const TableModel& model, const std::vector<const EffectResponse*>& effects,

@@ -115,6 +115,7 @@ bool RecordFile::next_row(std::vector<double>& row) {
 std::string record_rig(const std::string& path) {
   std::ifstream in(path, std::ios::binary);
   if (!in) throw BadInput(path, 0, "cannot be read", "name a run folder or its record");
+  if (in.peek() == std::ifstream::traits_type::eof()) throw BadInput(path, 0, "is empty", "run the case again");
   Keys keys(path);
   std::string text;
   for (int line = 1; std::getline(in, text) && text.rfind("#", 0) == 0; ++line) keys.add(text, line);

@@ -358,18 +358,18 @@ TEST_F(PostCommand, RefusesIdlingRecordsThatAreNone) {
 TEST_F(PostCommand, RefusesBrokenRecordsInOneLineAndWritesNothing) {
   expect_refusal("run", "run: cannot be read");
   fs::create_directories(folder_ / "run");
-  expect_refusal("run", "run/torque.csv: cannot be read");
+  expect_refusal("run", "run: holds no record of a rig; name a run folder with torque.csv,");
   const std::string good = quiet_.text();
   const auto write = [&](const std::string& text) { std::ofstream(folder_ / "run/torque.csv") << text; };
   write("");
   expect_refusal("run", "run/torque.csv: is empty");
   write(good.substr(0, good.size() - 9));
-  expect_refusal("run", "run/torque.csv, line 743: is cut off");
+  expect_refusal("run", "run/torque.csv, line 744: is cut off");
   write(good.substr(0, good.find("# dt=")) + good.substr(good.find("# dt_over_tc")));
   expect_refusal("run", "run/torque.csv: lacks the key 'dt'");
   std::string text = good;
   write(text.replace(text.rfind(",3000,"), 6, ",nan,"));
-  expect_refusal("run", "run/torque.csv, line 743, column grains: 'nan' is not a finite number");
+  expect_refusal("run", "run/torque.csv, line 744, column grains: 'nan' is not a finite number");
   EXPECT_FALSE(fs::exists(folder_ / "run/post"));
   EXPECT_EQ(post(""), 2);
 }

@@ -144,7 +144,7 @@ TEST_F(GapBlind, RefusesAPlanOfAnImpossibleTransmitterWithOneClearLine) {
                         "--sealed sealed/isolability.json --plan bad.toml --out never",
                         folder_.string())),
         2);
-    EXPECT_NE(output_.find("bad.toml, column " + column + ": "), std::string::npos) << output_;
+    EXPECT_NE(output_.find(", column " + column + ": "), std::string::npos) << output_;
     EXPECT_EQ(std::count(output_.begin(), output_.end(), '\n'), 1) << output_;
     EXPECT_FALSE(fs::exists(folder_ / "never"));
   };

@@ -205,39 +205,39 @@ TEST_F(TorqueRecord, RefusesAFaultWithFileLineAndColumn) {
   synthetic.turns = 2;
   const std::string good = synthetic.text();
   ASSERT_EQ(refusal(good), "accepted");
-  // 22 keys, the header in line 23, rows from line 24 on.
+  // 23 keys, the header in line 24, rows from line 25 on.
   const auto row = [&](int number) {
     std::istringstream in(good);
     std::string line;
     for (int i = 0; i < number; ++i) std::getline(in, line);
     return line;
   };
-  const std::string r25 = row(25);
+  const std::string r26 = row(26);
   const std::pair<std::string, std::string> faults[] = {
       {"", ": is empty"},
       {"# schema=1\n", ": has no header line"},
       {replaced(good, "# seed=1\n", ""), ": lacks the key 'seed'"},
       {replaced(good, "# schema=1\n", "# schema=2\n"), ", line 1: the schema is not 1"},
-      {replaced(good, "# fill=0.15", "# fill=fifteen"), ", line 3: key 'fill' has the value 'fifteen'"},
-      {replaced(good, "# fill=0.15", "# fill=15"), ", line 3: key 'fill' has the value 15"},
-      {replaced(good, "# speed=1.21", "# speed=0"), ", line 2: key 'speed' has the value '0'"},
-      {replaced(good, "# speed=1.21", "# speed=1.21\n# speed=1"), ", line 3: key 'speed' is stated twice"},
-      {replaced(good, "# slice=4", "# slice=3"), ", line 6: states 4 angles for a slice of 3 paddles"},
-      {replaced(good, "0 90 180 270", "0 90 x 270"), ", line 6: key 'paddle_angles_deg' holds 'x'"},
-      {replaced(good, "# speed=1.21", "# speed=1.22"), ", line 10: steps_per_turn * dt * speed is 1.00826"},
-      {replaced(good, "paddle4_Nm,", "other,"), ", line 23, column paddle4_Nm: is missing"},
-      {replaced(good, "drum_Fz_N,", "drum_Fy_N,"), ", line 23, column drum_Fy_N: is there twice"},
-      {replaced(good, "contacts,", "touches,"), ", line 23, column contacts: is missing"},
-      {replaced(good, r25, replaced(r25, "0.1,0.05", "nan,0.05")), ", line 25, column stems_Nm: 'nan' is not a finite"},
-      {replaced(good, r25, replaced(r25, "0.1,0.05", "1e12x,0.05")), ", line 25, column stems_Nm: '1e12x' is not"},
-      {replaced(good, r25, replaced(r25, "0.1,0.05", "inf,0.05")), ", line 25, column stems_Nm: 'inf' is not a finite"},
-      {replaced(good, r25, replaced(r25, "0.1,0.05", ",0.05")), ", line 25, column stems_Nm: '' is not a finite"},
-      {replaced(good, r25, replaced(r25, "0.1,", "")), ", line 25: has "},
-      {replaced(good, r25 + "\n", ""), ", line 25, column step: is 150 where 100 follows"},
-      {replaced(good, r25 + "\n", r25 + "\n" + r25 + "\n"), ", line 26, column step: is 100 where 150 follows"},
-      {good.substr(0, good.size() - 1), ", line 167: is cut off"},
-      {good.substr(0, good.size() - 20), ", line 167: is cut off"},
-      {good.substr(0, good.find(r25) - row(24).size() - 1), ": holds no row"},
+      {replaced(good, "# fill=0.15", "# fill=fifteen"), ", line 4: key 'fill' has the value 'fifteen'"},
+      {replaced(good, "# fill=0.15", "# fill=15"), ", line 4: key 'fill' has the value 15"},
+      {replaced(good, "# speed=1.21", "# speed=0"), ", line 3: key 'speed' has the value '0'"},
+      {replaced(good, "# speed=1.21", "# speed=1.21\n# speed=1"), ", line 4: key 'speed' is stated twice"},
+      {replaced(good, "# slice=4", "# slice=3"), ", line 7: states 4 angles for a slice of 3 paddles"},
+      {replaced(good, "0 90 180 270", "0 90 x 270"), ", line 7: key 'paddle_angles_deg' holds 'x'"},
+      {replaced(good, "# speed=1.21", "# speed=1.22"), ", line 11: steps_per_turn * dt * speed is 1.00826"},
+      {replaced(good, "paddle4_Nm,", "other,"), ", line 24, column paddle4_Nm: is missing"},
+      {replaced(good, "drum_Fz_N,", "drum_Fy_N,"), ", line 24, column drum_Fy_N: is there twice"},
+      {replaced(good, "contacts,", "touches,"), ", line 24, column contacts: is missing"},
+      {replaced(good, r26, replaced(r26, "0.1,0.05", "nan,0.05")), ", line 26, column stems_Nm: 'nan' is not a finite"},
+      {replaced(good, r26, replaced(r26, "0.1,0.05", "1e12x,0.05")), ", line 26, column stems_Nm: '1e12x' is not"},
+      {replaced(good, r26, replaced(r26, "0.1,0.05", "inf,0.05")), ", line 26, column stems_Nm: 'inf' is not a finite"},
+      {replaced(good, r26, replaced(r26, "0.1,0.05", ",0.05")), ", line 26, column stems_Nm: '' is not a finite"},
+      {replaced(good, r26, replaced(r26, "0.1,", "")), ", line 26: has "},
+      {replaced(good, r26 + "\n", ""), ", line 26, column step: is 150 where 100 follows"},
+      {replaced(good, r26 + "\n", r26 + "\n" + r26 + "\n"), ", line 27, column step: is 100 where 150 follows"},
+      {good.substr(0, good.size() - 1), ", line 168: is cut off"},
+      {good.substr(0, good.size() - 20), ", line 168: is cut off"},
+      {good.substr(0, good.find(r26) - row(25).size() - 1), ": holds no row"},
   };
   for (const auto& [text, message] : faults)
     EXPECT_EQ(refusal(text).rfind(message, 0), 0u) << "expected: " << message << "\ngot: " << refusal(text);
@@ -249,11 +249,11 @@ TEST_F(TorqueRecord, RefusesTimesAndTurnsThatLeaveTheSteps) {
   synthetic.change = [](int i, std::map<std::string, double>& row) {
     if (i >= 100) row["time_s"] += 0.1;
   };
-  EXPECT_EQ(refusal(synthetic.text()).rfind(", line 124, column time_s: is ", 0), 0u);
+  EXPECT_EQ(refusal(synthetic.text()).rfind(", line 125, column time_s: is ", 0), 0u);
   synthetic.change = [](int i, std::map<std::string, double>& row) {
     if (i >= 100) row["turn"] *= 1.1;
   };
-  EXPECT_EQ(refusal(synthetic.text()).rfind(", line 124, column turn: is ", 0), 0u);
+  EXPECT_EQ(refusal(synthetic.text()).rfind(", line 125, column turn: is ", 0), 0u);
 }
 
 TEST_F(TorqueRecord, RefusesPaddlesThatDoNotAddUp) {
