@@ -120,23 +120,18 @@ NextTest described(const CandidateTest& test) {
   return next;
 }
 
-}  // namespace
-
-NextTest judge_candidate(const TableModel& joint, Index present, const CandidateTest& test,
-                         const std::vector<const ModelEvidence*>& open) {
-  NextTest next = described(test);
-  std::vector<Predicted> p;
-  for (const ModelEvidence* m : open) p.push_back(predicted(joint, *m));
+// Means over the pairs of open models, weighted by what both are worth: how far apart they are now and with the test.
+template <class Now, class Then>
+void separate(NextTest& next, const std::vector<const ModelEvidence*>& open, Now now, Then then) {
   double weight = 0, most = -1;
   for (std::size_t a = 0; a < open.size(); ++a)
     for (std::size_t b = 0; b < a; ++b) {
-      const double w = open[a]->probability * open[b]->probability;
-      const double now = separation(joint, p[a], p[b], present), then = separation(joint, p[a], p[b], joint.size());
-      next.separation_now += w * now;
-      next.separation += w * then;
+      const double w = open[a]->probability * open[b]->probability, before = now(a, b), after = then(a, b);
+      next.separation_now += w * before;
+      next.separation += w * after;
       weight += w;
-      if (w * (then - now) > most) {
-        most = w * (then - now);
+      if (w * (after - before) > most) {
+        most = w * (after - before);
         next.separates = open[b]->name() + " from " + open[a]->name();
       }
     }
@@ -145,6 +140,18 @@ NextTest judge_candidate(const TableModel& joint, Index present, const Candidate
     next.separation /= weight;
   }
   next.gain_per_hour = (next.separation - next.separation_now) / next.hours;
+}
+
+}  // namespace
+
+NextTest judge_candidate(const TableModel& joint, Index present, const CandidateTest& test,
+                         const std::vector<const ModelEvidence*>& open) {
+  NextTest next = described(test);
+  std::vector<Predicted> p;
+  for (const ModelEvidence* m : open) p.push_back(predicted(joint, *m));
+  separate(
+      next, open, [&](std::size_t a, std::size_t b) { return separation(joint, p[a], p[b], present); },
+      [&](std::size_t a, std::size_t b) { return separation(joint, p[a], p[b], joint.size()); });
   return next;
 }
 
@@ -201,26 +208,14 @@ NextTest judge_state(const TableModel& now, const TableModel& then, const Candid
     next.gain_per_hour = (next.separation - next.separation_now) / next.hours;
     return next;
   }
-  double weight = 0, most = -1;
-  for (std::size_t a = 0; a < open.size(); ++a)
-    for (std::size_t b = 0; b < a; ++b) {
-      const double w = open[a]->probability * open[b]->probability;
-      const double before = separation(now, predicted(now, *open[a]), predicted(now, *open[b]), now.size());
-      const double after =
-          separation(then, predicted_if_known(then, *open[a]), predicted_if_known(then, *open[b]), then.size());
-      next.separation_now += w * before;
-      next.separation += w * after;
-      weight += w;
-      if (w * (after - before) > most) {
-        most = w * (after - before);
-        next.separates = open[b]->name() + " from " + open[a]->name();
-      }
-    }
-  if (weight > 0) {
-    next.separation_now /= weight;
-    next.separation /= weight;
-  }
-  next.gain_per_hour = (next.separation - next.separation_now) / next.hours;
+  separate(
+      next, open,
+      [&](std::size_t a, std::size_t b) {
+        return separation(now, predicted(now, *open[a]), predicted(now, *open[b]), now.size());
+      },
+      [&](std::size_t a, std::size_t b) {
+        return separation(then, predicted_if_known(then, *open[a]), predicted_if_known(then, *open[b]), then.size());
+      });
   return next;
 }
 
