@@ -12,11 +12,9 @@ endforeach()
 # Libraries know by these files whether their runs were made with the law as it is.
 install(DIRECTORY liggghts_addons/law DESTINATION ${data}/liggghts_addons)
 install(DIRECTORY liggghts_addons/plugin/laws DESTINATION ${data}/liggghts_addons/plugin)
-foreach(script calibrate campaign library reference study table)
+foreach(script calibrate campaign library study table)
   install(PROGRAMS scripts/${script} DESTINATION ${data}/scripts)
 endforeach()
-install(PROGRAMS scripts/install-packages DESTINATION ${data}/scripts)
-install(FILES scripts/packages/campaign.txt scripts/packages/calibration.txt DESTINATION ${data}/scripts/packages OPTIONAL)
 install(FILES README.md CITATION.cff AUTHORS cmake/install/copyright DESTINATION ${CMAKE_INSTALL_DOCDIR})
 find_program(GZIP_PROGRAM gzip REQUIRED)
 execute_process(COMMAND ${GZIP_PROGRAM} -9nc CHANGELOG.md WORKING_DIRECTORY ${PROJECT_SOURCE_DIR} COMMAND_ERROR_IS_FATAL ANY

@@ -51,10 +51,12 @@ void copy(const std::string& folder) {
     throw BadInput(folder, 0, fmt::format("cannot be made ({})", error.code().message()),
                    "name a folder that can be written, with 5 MB left");
   }
+  // installed, our program has a name of its own (cmake/Install.cmake)
+  const bool repository = fs::exists(source / "CMakeLists.txt");
   fmt::print(
-      "cases, cards, libraries and studies: {0}\nfirst run: cd {0}/cases/mixer && liggghts -in in.mixer -var run "
+      "cases, cards, libraries and studies: {0}\nfirst run: cd {0}/cases/mixer && {1} -in in.mixer -var run "
       "results/first\n",
-      folder);
+      folder, repository ? "liggghts" : "liggghts-vielto");
 }
 
 }  // namespace
@@ -65,7 +67,8 @@ void add_copy_command(CLI::App& app) {
       "Input scripts read files beside them (../law.par, ../../materials), and runs are written beside them: work in "
       "a\n"
       "copy. scripts/campaign and the others of scripts/ work in it too.\n\n"
-      "  vielto copy mixing && cd mixing/cases/mixer && liggghts -in in.mixer");
+      "  vielto copy mixing && cd mixing/cases/mixer && liggghts-vielto -in in.mixer\n\n"
+      "In a repository, not installed, the program is build/bin/liggghts.");
   const auto folder = std::make_shared<std::string>();
   command->add_option("folder", *folder, "folder to be made")->required();
   command->callback([folder] { copy(*folder); });

@@ -51,7 +51,8 @@ with tempfile.TemporaryDirectory() as name:
 
     # a working copy, and a run in it by the installed program
     work = folder / "my work"
-    assert "first run: cd" in run(["vielto", "copy", work], env=env)
+    said = run(["vielto", "copy", work], env=env)
+    assert f"first run: cd {work}/cases/mixer && liggghts-vielto -in in.mixer" in said, said
     assert "is there already" in run(["vielto", "copy", work], status=2, env=env)
     mixer = work / "cases/mixer"
     small = (

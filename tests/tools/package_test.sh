@@ -16,7 +16,7 @@ trap end EXIT
 rm -f "$build"/vielto_*.deb
 (cd "$build" && cpack -G DEB >/dev/null)
 package=$(echo "$build"/vielto_*.deb)
-lintian --allow-root --fail-on error --suppress-tags bogus-mail-host "$package"
+lintian --allow-root --fail-on error "$package"
 [ -e "$root/usr/bin/apt-get" ] || debootstrap --variant=minbase bookworm "$root" >/dev/null
 cp /etc/resolv.conf "$root/etc/"
 cp -r /etc/apt/. "$root/etc/apt/"
