@@ -21,11 +21,13 @@ The directive {values}: the same from JSON files, a row for each template and a 
 
     ```{values}
     :files: with bench rows = findings/withheld_drum/score.json; without = findings/withheld_drum/score_without_bench.json
-    :rows: right ({right_n}) = {right:.2f} [{right_low95:.2f}, {right_high95:.2f}]
+    :rows: closure by simulation = {closure:.2f}
+    :scores: right, false_alarm
     ```
 
 Names in braces are keys (`a.b` one inside another) of the column's file, in a row's label those of the first file. A
-cell whose key is not there or null is a dash.
+cell whose key is not there or null is a dash. Each of `scores` is a row of a score file: how many cases, the score, its 95 %
+interval.
 """
 import csv
 import json
@@ -117,8 +119,20 @@ class Values(string.Formatter):
         return re.sub(r"-(?=[\d.])", "−", re.sub(r"-(0(?:\.0+)?)(?![\d.])", r"\1", text))  # no -0.00
 
 
+SCORE_WORDS = {"brier": "Brier score", "coverage90": "coverage of 90 % intervals", "where_f1": "F1 of the regions"}
+
+
+def score_row(score):
+    label = SCORE_WORDS.get(score, score.replace("_", " "))
+    return f"{label} ({{{score}_n}}) = {{{score}:.2f}} [{{{score}_low95:.2f}}, {{{score}_high95:.2f}}]"
+
+
 class JsonValues(Directive):
-    option_spec = {"files": directives.unchanged_required, "rows": directives.unchanged_required}
+    option_spec = {
+        "files": directives.unchanged_required,
+        "rows": directives.unchanged,
+        "scores": directives.unchanged,
+    }
 
     def run(self):
         columns = [[part.strip() for part in file.split("=", 1)] for file in self.options["files"].split(";")]
@@ -130,7 +144,9 @@ class JsonValues(Directive):
             except (OSError, ValueError) as fault:
                 raise self.error(f"{path}: {fault!r}") from fault
         body = []
-        for row in self.options["rows"].split(";"):
+        rows = [row for row in self.options.get("rows", "").split(";") if row.strip()]
+        rows += [score_row(score.strip()) for score in self.options.get("scores", "").split(",") if score.strip()]
+        for row in rows:
             label, template = (part.strip() for part in row.split("=", 1))
             cells = [content.filled(template) for content in contents]
             if set(cells) == {"–"}:
