@@ -36,15 +36,35 @@ with tempfile.TemporaryDirectory(prefix="vielto-robust-") as name:
         rows = {row["change"]: row for row in csv.DictReader(file)}
     fit = 3
     assert len(rows) == 9 + fit and all(row["verdict"] != "refused" for row in rows.values()), rows
-    words = ["vielto", "gap", "diagnose", folder / "b.csv", "--library", "libraries/wheat", "--out", folder / "own"]
-    assert run(*words, *HOW).returncode == 0
-    own = json.loads((folder / "own/diagnosis.json").read_text())
-    first = rows["as stated"]
+
+    def diagnosed(table):
+        out = folder / f"{table.stem}_answer"
+        words = ["vielto", "gap", "diagnose", table, "--library", "libraries/wheat", "--out", out]
+        assert run(*words, *HOW).returncode == 0
+        return json.loads((out / "diagnosis.json").read_text())
+
+    own, first = diagnosed(folder / "b.csv"), rows["as stated"]
     assert first["verdict"] == own["verdict"] and first["no_gap"] == f"{own['probabilities']['no_gap']:.3f}", first
-    # more prior for causes is less for no gap; eight u are no accident
-    assert float(rows["prior of causes x2.5"]["no_gap"]) < float(first["no_gap"]) < 1, rows
-    assert float(rows["prior of causes x0.5"]["no_gap"]) > float(first["no_gap"]), rows
-    assert float(rows["u x1.5"]["no_gap"]) > float(first["no_gap"]), rows
+    # Bayes: prior odds of causes times f leave no gap and unknown in their ratio, p/(p + q + f (1 - p - q)); three digits
+    p, q = (own["probabilities"][key] for key in ("no_gap", "unknown"))
+    for change, factor in (("prior of causes x0.5", 0.5), ("prior of causes x2.5", 2.5)):
+        total = p + q + factor * (1 - p - q)
+        for key, was in (("no_gap", p), ("unknown", q)):
+            assert abs(float(rows[change][key]) - was / total) < 1e-3, (change, key, was / total, rows[change])
+    # u wrong by a factor is the table with that u
+    for change, factor in (("u x1.5", 1.5), ("u /1.5", 1 / 1.5)):
+        with open(folder / "b.csv", newline="", encoding="utf-8") as file:
+            table = list(csv.DictReader(file))
+        for row in table:
+            row["u"] = f"{float(row['u']) * factor:.12g}"
+        scaled = folder / f"scaled_{factor:.2f}.csv"
+        with open(scaled, "w", newline="", encoding="utf-8") as file:
+            writer = csv.DictWriter(file, table[0], lineterminator="\n")
+            writer.writeheader()
+            writer.writerows(table)
+        expected = diagnosed(scaled)["probabilities"]["no_gap"]
+        assert abs(float(rows[change]["no_gap"]) - expected) < 1e-3, (change, expected, rows[change])
+        assert rows[change]["no_gap"] != first["no_gap"], rows[change]
     assert [p for p in os.listdir(ROOT / "libraries") if p.startswith("half_")] == []
 
     (folder / "empty.csv").write_text((folder / "b.csv").read_text().replace(",fit,", ",check,"))
