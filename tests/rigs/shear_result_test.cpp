@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <cstdlib>
@@ -22,6 +23,9 @@ const double area = 0.0036, stress = 19620, pi = 3.14159265358979323846;
 
 // Rows over 8 mm: shear stress rises to `peak` at 1 mm and falls to `steady` at 3 mm; the plate force swings by `swing`
 // of its weight; noise of the shear stress is `noise` of it, white.
+// ctest runs the tests of a program side by side, each in a process of its own.
+std::string own_path(const std::string& name) { return fmt::format("{}{}_{}", testing::TempDir(), getpid(), name); }
+
 struct Synthetic {
   int rows = 2000;
   double peak = 14000, steady = 10000, drift = 0, noise = 0.01, swing = 0.1, lost = 0, overlap = 0.01;
@@ -75,15 +79,20 @@ struct Synthetic {
   }
 
   std::string write() const {
-    const std::string path = testing::TempDir() + "shear.csv";
+    const std::string path = own_path("shear.csv");
     std::ofstream(path) << text();
     return path;
   }
-  ShearResult result() const { return shear_result(read_shear_record(write())); }
+  ShearResult result() const {
+    const std::string path = write();
+    const ShearRecord record = read_shear_record(path);
+    std::filesystem::remove(path);
+    return shear_result(record);
+  }
 };
 
 void expect_refused(const std::string& text, const std::string& why) {
-  const std::string path = testing::TempDir() + "shear.csv";
+  const std::string path = own_path("shear.csv");
   std::ofstream(path) << text;
   try {
     shear_result(read_shear_record(path));
@@ -91,6 +100,7 @@ void expect_refused(const std::string& text, const std::string& why) {
   } catch (const BadInput& e) {
     EXPECT_NE(std::string(e.what()).find(why), std::string::npos) << e.what();
   }
+  std::filesystem::remove(path);
 }
 
 bool warns(const ShearResult& result, const std::string& of) {
@@ -163,7 +173,7 @@ TEST(ShearResult, RefusesABrokenRecord) {
 
 // Through the program: the kind of record is found by its key; bad input leaves nothing behind and exits 2.
 TEST(PostCommand, TellsRigsApartByTheirKey) {
-  const std::string folder = testing::TempDir() + "shear_post";
+  const std::string folder = own_path("shear_post");
   std::filesystem::remove_all(folder);
   std::filesystem::create_directories(folder);
   const auto post = [&](const std::string& text, const std::string& options = "") {
@@ -182,4 +192,5 @@ TEST(PostCommand, TellsRigsApartByTheirKey) {
   EXPECT_EQ(post(s.text()), 0);
   for (const char* file : {"shear.json", "table.txt", "curve.csv", "observations.csv"})
     EXPECT_TRUE(std::filesystem::exists(folder + "/post/" + file)) << file;
+  std::filesystem::remove_all(folder);
 }
