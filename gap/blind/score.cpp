@@ -113,8 +113,8 @@ using Pick = std::vector<const Scored*>;
 
 // Bootstrap over base truths, then over the cases of each.
 std::pair<double, double> interval(const Pick& cases, const std::function<double(const Pick&)>& statistic) {
-  std::map<int, Pick> by_truth;
-  for (const Scored* c : cases) by_truth[c->truth["base_truth"].get<int>()].push_back(c);
+  std::map<std::string, Pick> by_truth;
+  for (const Scored* c : cases) by_truth[c->truth["base_truth"].get<std::string>()].push_back(c);
   std::vector<const Pick*> truths;
   for (const auto& entry : by_truth) truths.push_back(&entry.second);
   std::mt19937_64 random(1);
@@ -312,11 +312,15 @@ void add_by_strength(json& result, const std::vector<Scored>& cases, const Names
 
 }  // namespace
 
-json score(const std::string& folder, const std::string& answers, const std::string& isolability_file,
-           std::optional<std::uint64_t> shuffle) {
-  const json sealed = read_sealed(isolability_file);
-  const Isolability isolability = isolability_of_json(sealed, isolability_file);
-  const std::vector<Scored> cases = read_cases(folder, answers, sealed, isolability, shuffle);
+json score(const std::vector<AnsweredCases>& sets, std::optional<std::uint64_t> shuffle) {
+  std::vector<Scored> cases;
+  std::set<std::string> names;
+  for (const AnsweredCases& set : sets) {
+    const json sealed = read_sealed(set.isolability);
+    const Isolability isolability = isolability_of_json(sealed, set.isolability);
+    for (Scored& c : read_cases(set.folder, set.answers, sealed, isolability, shuffle)) cases.push_back(std::move(c));
+    names.insert(isolability.effects.begin(), isolability.effects.end());
+  }
   json result = {{"schema", 2}, {"cases", cases.size()}};
   add_rates(result, cases);
   add_closures(result, cases);
@@ -325,9 +329,7 @@ json score(const std::string& folder, const std::string& answers, const std::str
       result, "where_f1",
       pick(cases, [](const Scored& c) { return c.kind() == "known" || c.kind() == "prior" || c.kind() == "pair"; }),
       f1_of_regions);
-  Names effects = isolability.effects;
-  std::sort(effects.begin(), effects.end());
-  add_by_strength(result, cases, effects);
+  add_by_strength(result, cases, {names.begin(), names.end()});
   return result;
 }
 

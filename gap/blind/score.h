@@ -24,12 +24,17 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace vielto::gap {
 
-// `shuffle`: truths handed to the wrong cases (a score must then be that of chance).
-nlohmann::ordered_json score(const std::string& folder, const std::string& answers, const std::string& isolability,
-                             std::optional<std::uint64_t> shuffle);
+// Cases, their answers, and the isolability.json that was sealed before them. With references there is a set for each.
+struct AnsweredCases {
+  std::string folder, answers, isolability;
+};
+
+// Of all sets together. `shuffle`: truths of a set handed to the wrong cases (a score must then be that of chance).
+nlohmann::ordered_json score(const std::vector<AnsweredCases>& sets, std::optional<std::uint64_t> shuffle);
 
 struct Wilson {
   double value = 0, low95 = 0, high95 = 0;

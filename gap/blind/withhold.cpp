@@ -14,6 +14,7 @@
 #include "core/seal.h"
 #include "core/sha256.h"
 #include "gap/blind/power_signal.h"
+#include "gap/question/question.h"
 #include "gap/question/sealed.h"
 #include "gap/verdict/regions.h"
 
@@ -74,14 +75,13 @@ struct Case {
 
 class Maker {
  public:
-  Maker(const WithholdRequest& request)
+  explicit Maker(const WithholdRequest& request)
       : request_(request), plan_(read_plan(request.plan)), library_(request.library), random_(request.seed) {
     table_ = read_reduced_table(request.tests);
+    if (!table_.covariance_path.empty())
+      throw BadInput(table_.covariance_path, 0, "is not carried into cases", "state tests with independent errors");
     options_.ignored = {request.ignored.begin(), request.ignored.end()};
     library_model_ = library_.emulator.model(table_, options_, library_.settings);
-    for (std::size_t i = 0; i < table_.rows.size(); ++i)
-      if (table_.rows[i].role == "fit") fit_.push_back(static_cast<Index>(i));
-    if (fit_.empty()) throw BadInput(request.tests, 0, "holds no row of role fit", "mark some");
     for (const std::string& folder : request.truths) {
       InputFiles files = request.library.completed();
       files.library = folder;
@@ -91,29 +91,30 @@ class Maker {
       options.use_discrepancy = false;
       truths_.push_back(truth.emulator.model(table_, options, truth.settings));
     }
-    const json sealed = read_sealed(request.isolability);
-    const TableModel fit = library_model_.part(fit_);
-    if (sealed.value("rows", "") != rows_fingerprint(fit.rows, fit.noise))
-      throw BadInput(request.isolability, 0, fmt::format("was sealed for other rows than those of {}", request.tests),
-                     "seal those: vielto gap isolability");
-    isolability_ = isolability_of_json(sealed, request.isolability);
     u_.resize(library_model_.size());
     for (Index i = 0; i < u_.size(); ++i) u_[i] = table_.rows[i].u;
   }
 
+  void draw_reference() {
+    if (fs::exists(request_.out)) throw BadInput(request_.out, 0, "is there already", "name a file to be made");
+    write_observations(request_.out, rows_with(draw(0, {})));
+  }
+
   WithholdResult make() {
+    fit_ = rows_of(table_, "fit");
+    read_isolability();
     for (int t = 0; t < static_cast<int>(truths_.size()); ++t)
       for (int d = 0; d < plan_.no_effect_draws; ++d) add({"none", "", t, {}, {}, {}});
     std::vector<Case> strong;
     int next_truth = 0;
-    for (const EffectResponse& e : library_model_.effects)
+    for (const EffectResponse& e : candidates())
       for (const auto& [level, k] : plan_.levels)
         for (int t = 0; t < std::min<int>(plan_.truths_per_effect, static_cast<int>(truths_.size())); ++t) {
           const int truth = next_truth++ % static_cast<int>(truths_.size());
           for (int d = 0; d < plan_.draws; ++d) {
             const auto s = strength_for(truth, e.name, k, d % 2 == 1);
             if (!s) {
-              unreachable_ += fmt::format("{},{},{},{}\n", e.name, level, truth, k);
+              unreachable_ += fmt::format("{},{},{},{}\n", e.name, level, name_of_truth(truth), k);
               ++result_.unreachable;
               continue;
             }
@@ -141,8 +142,7 @@ class Maker {
       add(c);
     }
     const auto any_effect = [&] {
-      return library_model_
-          .effects[std::uniform_int_distribution<std::size_t>(0, library_model_.effects.size() - 1)(random_)];
+      return candidates()[std::uniform_int_distribution<std::size_t>(0, candidates().size() - 1)(random_)];
     };
     const auto any_truth = [&] {
       return std::uniform_int_distribution<int>(0, static_cast<int>(truths_.size()) - 1)(random_);
@@ -170,9 +170,36 @@ class Maker {
   }
 
  private:
+  // What groups rest on: the seal must be of these rows, and of this reference.
+  void read_isolability() {
+    const json sealed = read_sealed(request_.isolability);
+    std::string rows;
+    if (request_.reference.empty()) {
+      const TableModel fit = library_model_.part(fit_);
+      rows = rows_fingerprint(fit.rows, fit.noise);
+    } else {
+      QuestionOptions asked;
+      asked.files = request_.library;
+      asked.table = request_.tests;
+      asked.reference = request_.reference;
+      asked.emulator = options_;
+      asked.seed = sealed.value("seed", asked.seed);
+      question_.emplace(asked);
+      rows = question_->fingerprint_of_rows();
+    }
+    if (sealed.value("rows", "") != rows)
+      throw BadInput(request_.isolability, 0, fmt::format("was sealed for other rows than those of {}", request_.tests),
+                     "seal those: vielto gap isolability");
+    isolability_ = isolability_of_json(sealed, request_.isolability);
+  }
+
+  const std::vector<EffectResponse>& candidates() const {
+    return question_ ? question_->model.effects : library_model_.effects;
+  }
+
   // What can stand in for an effect at its strength, in the library's terms.
   std::vector<std::string> group_of(int truth, const std::string& effect, double strength) const {
-    return isolability_.group_of(effect, library_strength(effect, change(truths_[truth], {{effect, strength}})));
+    return isolability_.group_of(effect, library_strength(truth, effect, strength));
   }
   std::vector<std::string> group_of(const Case& c) const {
     return group_of(c.truth, c.effects[0].first, c.effects[0].second);
@@ -225,8 +252,12 @@ class Maker {
     return std::nullopt;
   }
 
-  // The library's strength closest to the truth's noise-free change.
-  double library_strength(const std::string& name, const VectorXd& truth_change) const {
+  // The library's strength closest to the truth's noise-free change; of a reference the relative change.
+  double library_strength(int truth, const std::string& name, double strength) const {
+    VectorXd truth_change = change(truths_[truth], {{name, strength}});
+    if (question_)
+      truth_change.array() *= (library_model_.relative.array() > 0)
+                                  .select(library_model_.baseline.array() / truths_[truth].baseline.array(), 1.0);
     const EffectResponse* e = library_model_.effect(name);
     double best = 0, least = 1e300;
     for (int i = 0; i <= 2000; ++i) {
@@ -237,35 +268,52 @@ class Maker {
     return best;
   }
 
-  const Case& add(Case c) {
-    if (c.observed.size() == 0) {
-      const TableModel& truth = truths_[c.truth];
-      std::normal_distribution<double> normal;
-      Eigen::MatrixXd covariance = truth.noise + truth.seed;
-      const VectorXd free_of_noise = truth.baseline + change(truth, c.effects);
-      VectorXd signal_error = VectorXd::Zero(truth.size());
-      for (Index i = 0; plan_.signal && i < truth.size(); ++i) {
-        const Observation& row = table_.rows[static_cast<std::size_t>(i)];
-        if (row.observable != "power") continue;
-        covariance(i, i) -= truth.noise(i, i);
-        signal_error[i] = mean_error(*plan_.signal, free_of_noise[i], row.speed.value_or(0), u_[i], random_);
-      }
-      covariance.diagonal().array() += 1e-14 * covariance.diagonal().mean();
-      VectorXd z(truth.size());
-      for (double& x : z) x = normal(random_);
-      c.observed = free_of_noise + signal_error + covariance.llt().matrixL() * z;
+  // A measurement of a truth with its effects: one draw of the runs' scatter and of the rows' errors.
+  VectorXd draw(int number, const Effects& effects) {
+    const TableModel& truth = truths_[number];
+    std::normal_distribution<double> normal;
+    Eigen::MatrixXd covariance = truth.noise + truth.seed;
+    const VectorXd free_of_noise = truth.baseline + change(truth, effects);
+    VectorXd signal_error = VectorXd::Zero(truth.size());
+    for (Index i = 0; plan_.signal && i < truth.size(); ++i) {
+      const Observation& row = table_.rows[static_cast<std::size_t>(i)];
+      if (row.observable != "power") continue;
+      covariance(i, i) -= truth.noise(i, i);
+      signal_error[i] = mean_error(*plan_.signal, free_of_noise[i], row.speed.value_or(0), u_[i], random_);
     }
+    covariance.diagonal().array() += 1e-14 * covariance.diagonal().mean();
+    VectorXd z(truth.size());
+    for (double& x : z) x = normal(random_);
+    return free_of_noise + signal_error + covariance.llt().matrixL() * z;
+  }
+
+  std::string name_of_truth(int truth) const { return fs::path(request_.truths[truth]).lexically_normal().filename(); }
+
+  const Case& add(Case c) {
+    if (c.observed.size() == 0) c.observed = draw(c.truth, c.effects);
     cases_.push_back(std::move(c));
     return cases_.back();
   }
 
-  // Root mean square relative gap of simulated values on the check rows, noise taken out.
-  double check_gap(const VectorXd& observed, const VectorXd& simulated) const {
+  std::vector<Observation> rows_with(const VectorXd& values) const {
+    std::vector<Observation> rows = table_.rows;
+    for (std::size_t i = 0; i < rows.size(); ++i) rows[i].value = values[static_cast<Index>(i)];
+    return rows;
+  }
+
+  // Root mean square relative gap of the check rows to what is simulated with these effects, noise taken out.
+  double check_gap(const VectorXd& observed, const Effects& effects) const {
+    ReducedTable measured = table_;
+    measured.rows = rows_with(observed);
+    if (question_) measured = averaged(measured).table;
+    const TableModel& model = question_ ? question_->model : library_model_;
+    const VectorXd simulated = model.baseline + change(model, effects);
     double sum = 0;
     int n = 0;
-    for (Index i = 0; i < observed.size(); ++i) {
-      if (table_.rows[i].role != "check") continue;
-      sum += std::pow(simulated[i] / observed[i] - 1, 2) - std::pow(u_[i] / observed[i], 2);
+    for (Index i = 0; i < simulated.size(); ++i) {
+      const Observation& row = measured.rows[static_cast<std::size_t>(i)];
+      if (row.role != "check") continue;
+      sum += std::pow(simulated[i] / row.value - 1, 2) - std::pow(row.u / row.value, 2);
       ++n;
     }
     return n > 0 ? std::sqrt(std::max(0.0, sum / n)) : 0;
@@ -283,21 +331,17 @@ class Maker {
     for (const Case& c : cases_) {
       const std::string id = fmt::format("{:04}", ++number);
       fs::create_directories(partial / "cases" / id);
-      std::vector<Observation> rows = table_.rows;
-      for (std::size_t i = 0; i < rows.size(); ++i) rows[i].value = c.observed[static_cast<Index>(i)];
-      write_observations((partial / "cases" / id / "observations.csv").string(), rows);
-      if (!table_.covariance_path.empty())
-        throw BadInput(table_.covariance_path, 0, "is not carried into cases", "state tests with independent errors");
+      write_observations((partial / "cases" / id / "observations.csv").string(), rows_with(c.observed));
       write_whole_file((partial / "cases" / id / "case.json").string(),
                        json({{"schema", 1}, {"without", c.without}}).dump(2) + "\n");
       const TableModel& truth = truths_[c.truth];
       const VectorXd moved = change(truth, c.effects);
       json j = {{"schema", 1},    {"case", id},       {"nonce", fmt::format("{:016x}", random_())},
-                {"kind", c.kind}, {"level", c.level}, {"base_truth", c.truth}};
+                {"kind", c.kind}, {"level", c.level}, {"base_truth", name_of_truth(c.truth)}};
       j["effects"] = json::object();
       Effects library_effects;
       for (const auto& [name, s] : c.effects) {
-        const double own = library_strength(name, change(truth, {{name, s}}));
+        const double own = library_strength(c.truth, name, s);
         library_effects.emplace_back(name, own);
         j["effects"][name] = {{"truth_strength", s},
                               {"strength", own},
@@ -312,8 +356,8 @@ class Maker {
       for (const Region& r : regions_of(fit_rows))
         if (std::sqrt(z(r.rows).squaredNorm() / static_cast<double>(r.rows.size())) > 2)
           j["regions"].push_back(r.apparatus + " " + r.observable + " " + r.region);
-      j["check_before"] = check_gap(c.observed, library_model_.baseline);
-      j["check_true_effect"] = check_gap(c.observed, library_model_.baseline + change(library_model_, library_effects));
+      j["check_before"] = check_gap(c.observed, {});
+      j["check_true_effect"] = check_gap(c.observed, library_effects);
       const fs::path file = partial / "truth" / (id + ".json");
       write_whole_file(file.string(), j.dump(2) + "\n");
       seals += fmt::format("{}  truth/{}.json\n", sha256_of_file(file.string()), id);
@@ -333,7 +377,8 @@ class Maker {
   TableModel library_model_;
   std::vector<Index> fit_;
   std::vector<TableModel> truths_;
-  Isolability isolability_;  // as sealed
+  Isolability isolability_;           // as sealed
+  std::optional<Question> question_;  // with a reference
   VectorXd u_;
   std::vector<Case> cases_;
   std::string unreachable_;
@@ -345,7 +390,14 @@ class Maker {
 WithholdResult withhold(const WithholdRequest& request) {
   if (request.truths.empty())
     throw BadInput("--truth", 0, "names no base truth", "name response libraries of other laws");
+  if (!request.reference.empty() && request.truths.size() > 1)
+    throw BadInput("--reference", 0, "is of one base truth", "name one --truth");
   return Maker(request).make();
+}
+
+void draw_reference(const WithholdRequest& request) {
+  if (request.truths.size() != 1) throw BadInput("--draw-reference", 0, "is of one base truth", "name one --truth");
+  Maker(request).draw_reference();
 }
 
 }  // namespace vielto::gap

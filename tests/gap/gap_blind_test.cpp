@@ -209,6 +209,75 @@ TEST_F(GapBlind, ClosuresAreMeasuredWhereCasesWereSimulatedAgain) {
   fs::remove_all(folder_ / "simulated");
 }
 
+// Against its own reference state a truth whose law shifts every power has not changed, and what has changed is found;
+// two references make two seals, and both sets of cases are scored together.
+TEST_F(GapBlind, ChangesAreMarkedAgainstEachReferenceOfATruth) {
+  ASSERT_EQ(status_, 0) << output_;
+  std::istringstream in(content(folder_ / "tests.csv"));
+  std::ofstream repeated(folder_ / "repeated.csv");
+  std::string line;
+  for (std::getline(in, line), repeated << line << '\n'; std::getline(in, line);) {
+    const bool bench = line.find(",bench,") != std::string::npos;
+    for (int k = 1; k <= (bench ? 1 : 4); ++k)
+      repeated << fmt::format("{}_{}", line.substr(0, line.find(',')), k) << line.substr(line.find(',')) << '\n';
+  }
+  repeated.close();
+  const std::string here = fmt::format("cd '{}' && ", folder_.string());
+  std::ofstream(folder_ / "few.toml")
+      << "no_effect_draws = 2\nweak = 2\nmiddle = 4\nstrong = 8\ntruths_per_effect = 1\n"
+         "draws = 0\nremoved = 0\nsham = 0\npairs = 0\nfrom_prior = 4\nreachable = 0.7\n";
+  const std::string made =
+      "gap-withhold --library libraries/millet --truth truth/1 --plan few.toml --tests repeated.csv ";
+  std::string sets, answers, seals;
+  int cases = 0, found = 0;
+  for (const int k : {1, 2}) {
+    const std::string name = fmt::format("r{}", k), seal = name + "/sealed/isolability.json";
+    const std::string reference = fmt::format("--reference {}/reference.csv ", name);
+    ASSERT_EQ(run(here + "mkdir " + name + " && " + made +
+                  fmt::format("--draw-reference --seed {} --out {}/reference.csv && ", k, name) +
+                  "vielto gap isolability repeated.csv " + reference + "--library libraries/millet --draws 200 --out " +
+                  name + "/sealed && " + made + reference + "--sealed " + seal +
+                  fmt::format(" --seed {} --out {}/blind", k, name) + " && '" + VIELTO_SOURCE_DIR +
+                  "/scripts/blind' diagnose " + name + "/blind/cases " + name + "/answers " + seal +
+                  " libraries/millet " + reference + "--draws 200"),
+              0)
+        << output_;
+    for (const auto& entry : fs::directory_iterator(folder_ / name / "answers")) {
+      const json truth =
+          json::parse(content(folder_ / name / "blind/truth" / (entry.path().filename().string() + ".json")));
+      EXPECT_EQ(truth["base_truth"], "1");
+      found += truth["kind"] == "prior" && json::parse(content(entry.path() / "diagnosis.json"))["verdict"] != "no_gap";
+      ++cases;
+    }
+    sets += " " + name + "/blind", answers += " " + name + "/answers", seals += " " + seal;
+  }
+  ASSERT_EQ(run(here + "gap-score" + sets + " --answers" + answers + " --sealed" + seals + " --out changes.json"), 0)
+      << output_;
+  const json s = score("changes.json");
+  EXPECT_EQ(s["cases"], cases);
+  EXPECT_EQ(s["false_alarm_n"], 4);
+  EXPECT_EQ(s["false_alarm"], 0);
+  EXPECT_EQ(s["wrong_name_n"], 8);
+  EXPECT_EQ(s["wrong_name"], 0);
+  EXPECT_GE(found, 4);
+
+  // an answer against one reference is not marked by the seal of the other
+  EXPECT_EQ(run(here + "gap-score r1/blind --answers r1/answers --sealed r2/sealed/isolability.json --out never.json"),
+            2);
+  EXPECT_NE(output_.find("was made for other rows or another library than were sealed"), std::string::npos) << output_;
+  EXPECT_EQ(
+      run(here +
+          "gap-score r1/blind r2/blind --answers r1/answers --sealed r1/sealed/isolability.json --out never.json"),
+      2);
+  EXPECT_NE(output_.find("are not one of each FOLDER"), std::string::npos) << output_;
+  EXPECT_EQ(run(here + made + "--draw-reference --out r1/reference.csv"), 2);
+  EXPECT_NE(output_.find("is there already"), std::string::npos) << output_;
+  EXPECT_EQ(run(here + made + "--out never"), 2);
+  EXPECT_NE(output_.find("--sealed: is missing"), std::string::npos) << output_;
+  EXPECT_FALSE(fs::exists(folder_ / "never.json"));
+  EXPECT_FALSE(fs::exists(folder_ / "never"));
+}
+
 TEST_F(GapBlind, ATamperedTruthIsRefused) {
   ASSERT_EQ(status_, 0) << output_;
   const std::string truth = content(folder_ / "blind/truth/0002.json");
