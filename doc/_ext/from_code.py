@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Pages from the code itself:
 
-    {command-help} vielto gap diagnose      what the program says to --help; VIELTO_BIN is its folder (default: build/bin)
+    {commands} vielto                       a section for the program and each command that its help names, as deep as they go;
+                                            VIELTO_BIN is the program's folder (default: build/bin)
     {program-page} vielto_laws              the Markdown that the program prints, but for its first heading and paragraph
     {parameters} cases/mixer/mixer.par      the lines of a parameter file or card: name, value, unit, (range,) u, source
     {effects} libraries/effects             one row an effect file
@@ -125,10 +126,38 @@ class FromProgram(Directive):
         return [nodes.paragraph(text=text)]
 
 
-class CommandHelp(FromProgram):
+def help_of(program, words):
+    done = subprocess.run([program.name, *words, "--help"], executable=program, capture_output=True, text=True)
+    if done.returncode != 0:
+        raise OSError(f"{' '.join(words)}: {done.stderr.strip()}")
+    return done.stdout.rstrip()
+
+
+def commands_of(program, words=()):
+    """[(words, help)] of a program's command and of those below it."""
+    text = help_of(program, words)
+    found = [(words, text)]
+    for name in re.findall(r"^  ([a-z]+)(?:\s|$)", text.partition("\nSubcommands:\n")[2], re.M):
+        found += commands_of(program, (*words, name))
+    return found
+
+
+class Commands(FromProgram):
     def run(self):
-        text = self.said("--help")
-        return [nodes.literal_block(text=text, language="text")] if text else self.missing()
+        name = self.arguments[0]
+        program = pathlib.Path(os.environ.get("VIELTO_BIN", ROOT / "build/bin")) / name
+        if not program.exists():
+            return self.missing()
+        try:
+            found = commands_of(program)
+        except OSError as fault:
+            raise self.error(f"{name}: {fault}") from fault
+        lines = []
+        for words, text in found:
+            lines += [f"## {' '.join((name, *words))}", "", "```text", *text.splitlines(), "```", ""]
+        holder = nodes.Element()
+        self.state.nested_parse(StringList(lines), self.lineno, holder, match_titles=True)
+        return holder.children
 
 
 class ProgramPage(FromProgram):
@@ -147,6 +176,6 @@ def setup(app):
     app.add_directive("effects", Effects)
     app.add_directive("observables", Observables)
     app.add_directive("rig-parameters", RigParameters)
-    app.add_directive("command-help", CommandHelp)
+    app.add_directive("commands", Commands)
     app.add_directive("program-page", ProgramPage)
     return {"parallel_read_safe": True}

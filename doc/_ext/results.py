@@ -11,7 +11,8 @@ Rows whose column matches every `where` (a regular expression for the whole cell
 together where their cells of `by` are the same, in the order of their first row; without `by` each row stands alone. A
 column is shown as `LABEL = [mean|sd|u|min|max|n] [FACTOR] COLUMN [FORMAT]`: the mean of the group unless told otherwise,
 u the standard deviation over the root of the number of rows; a column of words as it is. A cell may hold two of them,
-WHAT ± WHAT. The path starts at the repository's root. With
+WHAT ± WHAT. The path starts at the repository's root. Of a JSON file the list named behind its path is taken, `a.b` for the
+keys of an object in it. With
 
     :across: speed 1/s = relative_gap +.0%
 
@@ -53,6 +54,20 @@ STATISTICS = {
     "min": min,
     "max": max,
 }
+
+
+def rows_of(path, key=None):
+    """The rows of a CSV table, or of the list `key` of a JSON file with `a.b` for nested keys, as words."""
+    with open(path, newline="", encoding="utf-8") as file:
+        if not key:
+            return list(csv.DictReader(file))
+
+        def flat(value, name=""):
+            if not isinstance(value, dict):
+                return {name: "" if value is None else str(value)}
+            return {k: v for n, inner in value.items() for k, v in flat(inner, f"{name}.{n}".strip(".")).items()}
+
+        return [flat(row) for row in json.load(file)[key]]
 
 
 def matching(rows, where):
@@ -157,6 +172,7 @@ class JsonValues(Directive):
 
 class Results(Directive):
     required_arguments = 1
+    optional_arguments = 1
     option_spec = {
         "across": directives.unchanged,
         "where": directives.unchanged,
@@ -168,8 +184,7 @@ class Results(Directive):
         path = ROOT / self.arguments[0]
         self.state.document.settings.env.note_dependency(str(path))
         try:
-            with open(path, newline="", encoding="utf-8") as file:
-                rows = matching(list(csv.DictReader(file)), self.options.get("where", ""))
+            rows = matching(rows_of(path, *self.arguments[1:]), self.options.get("where", ""))
             if not rows:
                 raise self.error(f"{path.name}: no row is left under `where`")
             columns = [part.split("=", 1) for part in self.options["show"].split(";")]

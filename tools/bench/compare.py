@@ -16,7 +16,7 @@ memory      the law over the time that the bytes it must move take at the bandwi
 Engines that are compared start from the same grains and take turns, some steps of one, some steps of the other, many
 times, so that both meet the same weather on the machine; ViElTo and the stock law are compiled into one program with
 the same flags. A number is the median over the turns, low and high are the 95 % interval of that median (order
-statistics). Writes bench/results.json, and results.md from it; a part that is run alone replaces its own
+statistics). Writes bench/results.json; a part that is run alone replaces its own
 numbers there. --quick is a look: small cases, few turns, and build/bench_quick.json.
 """
 import json
@@ -28,38 +28,6 @@ from tools.bench.parts import PACKAGES, PARTS, machine
 from tools.bench.stepping import build
 from tools.errors import BadInput
 from tools.progress import Progress
-
-
-def report(results):
-    """The numbers as a page."""
-
-    def number(x):
-        return f"{x:.3g}" if x < 1e4 else f"{x:.2e}"
-
-    lines = [
-        "Median and its 95 % interval; made by `bench/run` on " + results["machine"]["cpu"] + ".",
-        "",
-        "| | median | low | high | |",
-        "|---|---|---|---|---|",
-    ]
-
-    def row(name, value):
-        rest = ", ".join(
-            f"{k} {number(v) if not isinstance(v, list) else ' + '.join(map(number, v))}"
-            for k, v in value.items()
-            if k not in ("median", "low", "high")
-        )
-        lines.append(
-            f"| {name} | {number(value['median'])} | {number(value['low'])} | {number(value['high'])} | {rest} |"
-        )
-
-    for name, value in results.items():
-        if isinstance(value, dict) and "median" in value:
-            row(name, value)
-        elif isinstance(value, list):
-            for one in value:
-                row(name, one)
-    return "\n".join(lines) + "\n"
 
 
 def add_options(parser):
@@ -89,6 +57,5 @@ def work(options):
         results.setdefault("parts", {})[part] = {"pairs": pairs, "quick": options.quick, "load_before": load}
         # after each part: what is measured is not lost if a later one fails
         files.write_json(out, results)
-        files.write_text(out.with_suffix(".md"), report(results))
         print(json.dumps(found, indent=2), flush=True)
         progress.step()

@@ -14,7 +14,7 @@ All four are fitted to all runs, by least squares of the relative error with non
 one rank too, the drum between its end walls has not. A rank needs a slab of at least 2 (d + skin); beyond that the model
 says nothing. It knows no other load on the machine, no network between nodes, no unequal filling.
 
-Writes scaling.json, scaling.md and scaling.png; --from FILE draws and predicts anew from a scaling.json.
+Writes scaling.json and scaling.png; --from FILE draws and predicts anew from a scaling.json.
 """
 import pathlib
 import sys
@@ -137,7 +137,7 @@ def predict(model):
     return answer
 
 
-def page(result):
+def summary(result):
     lines = [
         f"Made by `bench/scaling` on {result['machine']['cpu']}{' with --quick: a look, not a result' if result['quick'] else ''}.",
         "",
@@ -253,9 +253,8 @@ def work(options):
     result["full_drum"] = predict(result["model"]["mixer"])
     out.mkdir(parents=True, exist_ok=True)
     files.write_json(out / "scaling.json", result)
-    files.write_text(out / "scaling.md", page(result))
     draw(out / "scaling.png", result)
-    print(page(result))
+    print(summary(result))
 
 
 def read(path):

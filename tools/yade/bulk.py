@@ -3,8 +3,8 @@
 
 For each seed grains are placed at random, come to rest in liggghts, and both engines start from that bed, the grains at
 rest. Each run is kept in OUT/bulk/SEED.ENGINE.csv and not made again while the case stays as it is, so a broken-off
-call goes on and more seeds can be added. Writes bulk.csv (a line a run), bulk.md (the differences) and bulk.png to OUT.
-Ends with 1 if the 95 % interval of a difference leaves --limit.
+call goes on and more seeds can be added. Writes bulk.csv (a line a run), bulk_differences.csv (Yade less liggghts over the
+mean of both, 95 % interval) and bulk.png to OUT. Ends with 1 if the 95 % interval of a difference leaves --limit.
 """
 import hashlib
 import json
@@ -21,10 +21,10 @@ from tools.yade.programs import prepare
 ENGINES = ("liggghts", "yade")
 COLUMNS = "turn,torque_Nm,y_m,z_m,yy_m2,zz_m2,yz_m2"
 NAMES = {
-    "torque_Nm": "mean torque, N m",
-    "angle_deg": "centre of mass, angle from straight down, °",
-    "distance_m": "centre of mass, distance from the axis, m",
-    "slope_deg": "slope of the bed (long axis of the grains' scatter), °",
+    "torque_Nm": "mean torque",
+    "angle_deg": "centre of mass, angle from straight down",
+    "distance_m": "centre of mass, distance from the axis",
+    "slope_deg": "slope of the bed (long axis of the grains' scatter)",
 }
 
 
@@ -153,38 +153,21 @@ def difference(a, b):
     return [q / scale for q in (middle, middle - half, middle + half)]
 
 
-def mean_and_spread(values):
-    import numpy
-
-    return f"{numpy.mean(values):.4g} ± {numpy.std(values, ddof=1):.2g}"
-
-
 def write_tables(opts, case, answer):
     from tools.yade.runs import observables
 
     values = {e: [observables(case, rows) for rows in answer[e]] for e in ENGINES}
     rows = [[i + 1, e, *(f"{values[e][i][name]:.6g}" for name in NAMES)] for i in range(opts.seeds) for e in ENGINES]
     tables.write(opts.out / "bulk.csv", ["seed", "engine", *NAMES], rows)
-    lines = [
-        f"{opts.seeds} seeds, {case['grains']} grains, turns {case['averagedFrom']:g} to {case['turns']:g}; mean ± standard deviation over",
-        "the seeds; difference: Yade less liggghts over the mean of both, 95 % interval; made by `yade/bulk`.",
-        "",
-        "| | liggghts | Yade | difference | |",
-        "|---|---|---|---|---|",
-    ]
-    beyond = []
+    differences, beyond = [], []
     for name, words in NAMES.items():
         a, b = ([v[name] for v in values[e]] for e in ENGINES)
         middle, low, high = difference(a, b)
-        inside = -opts.limit <= low and high <= opts.limit
-        if not inside:
+        differences.append([words, *(f"{x:.4g}" for x in (middle, low, high))])
+        print(f"{words}: {100 * middle:+.1f} % ({100 * low:+.1f} to {100 * high:+.1f})")
+        if low < -opts.limit or high > opts.limit:
             beyond.append(f"{words.split(',')[0]} {100 * low:+.1f} to {100 * high:+.1f} %")
-        lines.append(
-            f"| {words} | {mean_and_spread(a)} | {mean_and_spread(b)} | {100 * middle:+.1f} % ({100 * low:+.1f} to {100 * high:+.1f}) "
-            f"| {'within' if inside else 'beyond'} ± {100 * opts.limit:g} % |"
-        )
-    files.write_text(opts.out / "bulk.md", "\n".join(lines) + "\n")
-    print("\n".join(lines[3:]))
+    tables.write(opts.out / "bulk_differences.csv", ["quantity", "difference", "low95", "high95"], differences)
     return beyond
 
 

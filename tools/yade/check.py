@@ -2,7 +2,7 @@
 """Contact by contact: our laws in liggghts against Yade's own, the two-body cases of contact/cases.json.
 
 Every case runs in both engines at its time step, half and a quarter of it; both are extrapolated to a vanishing step and
-compared. Writes contact_check.csv, contact_check.md and contact_check.png to --out. Ends with 1 if a case differs by more
+compared. Writes contact_check.csv and contact_check.png to --out. Ends with 1 if a case differs by more
 than the limit of cases.json without an entry there that explains the difference, or more than that entry allows.
 """
 import pathlib
@@ -91,20 +91,6 @@ def write_tables(folder, answer):
             numbers = {k: f"{v:.4g}" if isinstance(v, float) else v for k, v in r.items()}
             rows.append(dict(numbers, case=case["name"], law=case["law"], dt_s=dt, verdict=a["verdict"]))
     tables.write(folder / "contact_check.csv", COLUMNS, rows)
-    lines = [
-        "Largest difference over the largest value in the case, both engines extrapolated to a vanishing time step;",
-        "made by `yade/check`. `–`: the quantity is zero in this case. `step`: what the finest step still changes.",
-        "",
-        "| case | Yade law | displacement | velocity | spin | force | torque | step | |",
-        "|---|---|---|---|---|---|---|---|---|",
-    ]
-    for a in answer:
-        cells = [f"{r['relative']:.1e}" if r["largest"] else "–" for r in a["rows"]]
-        step = max(r["step_error"] for r in a["rows"])
-        lines.append(
-            f"| {a['case']['name']} | {a['case']['law']} | {' | '.join(cells)} | {step:.0e} | {a['verdict']} |"
-        )
-    files.write_text(folder / "contact_check.md", "\n".join(lines) + "\n")
 
 
 def work(opts):

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Parameters of one contact in LIGGGHTS -> the two bodies' Yade materials that give the same contact.
 
-The formulas are those of the table in yade/README.md, written from the thesis's equations and Yade's documentation.
+The formulas are those of the table in doc/reference/yade.md, written from the thesis's equations and Yade's documentation.
 """
 import math
 
