@@ -15,7 +15,7 @@ namespace {
 const std::string coarse_silo =
     "-var grainDiameter 0.005 -var youngsModulus 2e4 -var wall_youngsModulus 2e4 -var siloDiameter 0.1 "
     "-var fillHeight 0.08 -var siloHeight 0.16 -var maxOverlap 0.5 ";
-// Beverloo's spheres hardly resist rolling; with millet's resistance a tenth less runs out (README).
+// Beverloo's spheres hardly resist rolling; with millet's resistance a tenth less runs out (doc/theory/rigs.md).
 const std::string smooth = "-var rollingResistance 0.01 -var twistingResistance 0.01 -var frictionAngle 17 ";
 
 struct MadeUp {
