@@ -70,7 +70,7 @@ class YadeContact : public YadeCheck {
   }
 };
 
-// Relative limit 1e-6, far below the 0.1 % aimed at and above round-off and the turn of the normal (doc/reference/yade.md).
+// Relative limit 1e-6, far below the 0.1 % aimed at and above round-off and the turn of the normal.
 TEST_F(YadeContact, AgreesInImpactsAndMoments) {
   const Outcome done = check(
       "--case normal_spheres --case oblique_wall_both --case oblique_spheres_unequal --case rolling_wall_cap_facet "

@@ -8,7 +8,7 @@ than the limit of cases.json without an entry there that explains the difference
 import pathlib
 import tempfile
 
-from tools import files, tables
+from tools import tables
 from tools.errors import RunFailed
 from tools.progress import Progress
 from tools.yade import DATA, cases
