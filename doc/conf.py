@@ -10,7 +10,7 @@ sys.path.insert(0, str(ROOT / "doc" / "_ext"))
 project = "ViElTo for LIGGGHTS"
 author = "see AUTHORS"
 release = re.search(r"VERSION ([\d.]+)", (ROOT / "CMakeLists.txt").read_text().split("project(")[1])[1]
-extensions = ["myst_parser", "equations", "results", "from_code", "drawing", "questions"]
+extensions = ["myst_parser", "equations", "results", "claims", "from_code", "drawing", "questions"]
 myst_enable_extensions = ["colon_fence", "dollarmath", "deflist"]
 myst_heading_anchors = 3
 exclude_patterns = ["_ext"]
@@ -20,6 +20,7 @@ html_static_path = ["_static"]
 html_css_files = ["site.css"]
 html_js_files = ["site.js"]
 html_show_sphinx = False
+html_show_copyright = False
 html_math_renderer = "katex"
 math_number_all = False
 math_eqref_format = "({number})"
