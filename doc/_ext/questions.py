@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Questions that the site answers (doc/develop/questions.csv): is the answer where the clicks from the start page lead?
+"""Questions that the site answers: is the answer where the clicks from the start page lead? They are those of
+doc/develop/questions.csv and of tests/tools/unseen_questions.csv, which no page shows: readers are tried with them.
 
 Columns: question; clicks, the words of the links or, on the page itself, of the headings, divided by ` > `; answer, words
 that must stand there. After a build every click is looked up in the pages that were made; what is not found is a warning,
@@ -13,7 +14,8 @@ import urllib.parse
 
 from sphinx.util import logging
 
-TABLE = pathlib.Path(__file__).resolve().parents[1] / "develop/questions.csv"
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+TABLES = [ROOT / "doc/develop/questions.csv", ROOT / "tests/tools/unseen_questions.csv"]
 log = logging.getLogger(__name__)
 
 
@@ -68,11 +70,12 @@ def look_up(app, exception):
     if exception or app.builder.name != "html":
         return
     root = pathlib.Path(app.outdir).resolve()
-    with open(TABLE, newline="", encoding="utf-8") as file:
-        for row in csv.DictReader(file):
-            fault = fault_of(root, row["clicks"].split(" > "), row["answer"])
-            if fault:
-                log.warning(f"{TABLE.name}: {row['question']}: {fault}")
+    for table in TABLES:
+        with open(table, newline="", encoding="utf-8") as file:
+            for row in csv.DictReader(file):
+                fault = fault_of(root, row["clicks"].split(" > "), row["answer"])
+                if fault:
+                    log.warning(f"{table.name}: {row['question']}: {fault}")
 
 
 def setup(app):
