@@ -33,7 +33,9 @@ def work(options):
     power = files.read_json(options.run / "post/power.json", f"vielto post {options.run} makes it")
     answer = files.read_json(options.diagnosis, "take the answer of vielto gap diagnose")
     if not answer.get("probabilities") or "sentence" not in answer:
-        raise BadInput(f"{options.diagnosis}: has no sentence and probabilities; take the answer of vielto gap diagnose")
+        raise BadInput(
+            f"{options.diagnosis}: has no sentence and probabilities; take the answer of vielto gap diagnose"
+        )
     draw(options.picture, grains, turns, torque, power, answer)
 
 

@@ -22,7 +22,9 @@ def question_and_claim(path):
     title = re.match(r"# (.+)\n", text)
     claim = re.search(r"^\*\*(.+?(?:\.(?= |\*\*)))", text, re.M)
     if not title or not claim:
-        raise ValueError(f"{path.name}: a finding begins with its question as title and its claim in bold, a whole sentence")
+        raise ValueError(
+            f"{path.name}: a finding begins with its question as title and its claim in bold, a whole sentence"
+        )
     return title.group(1), claim.group(1)
 
 

@@ -114,8 +114,9 @@ def side_view(p, x0, cy):
         middle + slice_width / 2,
         below,
         cy + radius,
-        f"slice, {p['slicePaddles']:.0f} paddles: {slice_width:.0f}",
+        f"{slice_width:.0f}",
     )
+    out.append(words(middle + slice_width / 2 + 12, below, f"slice of {p['slicePaddles']:.0f} paddles"))
     ups = [first + k * pitch for k in range(count) if abs(math.sin(math.radians(k * p["paddleAngleStep"]))) > 0.5]
     out += pointer(
         ups[0] - wide / 4,
