@@ -99,7 +99,7 @@ void add_files(const std::string& path, const Values& values, std::vector<std::s
   std::ifstream in(path);
   if (!in) throw BadInput(path, 0, "cannot be read", "name an existing file with include, or with -in");
   files.push_back(path);
-  static const std::regex include("^\\s*include\\s+(\\S+)");
+  static const std::regex include("^\\s*(?:vielto\\s+)?include\\s+(\\S+)");
   std::smatch found;
   for (std::string line; std::getline(in, line);)
     if (std::regex_search(line, found, include))

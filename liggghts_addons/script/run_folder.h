@@ -33,8 +33,9 @@ class RunFolder {
   std::string folder_, partial_;
 };
 
-/* Every file that an input script is made from: itself and what it includes, with ${NAME} from `values`. A file made in
-   the run folder, and one whose name has an unknown variable, is left out. Errors: BadInput if one cannot be read. */
+/* Every file that an input script is made from: itself and what it includes or may include, with ${NAME} from `values`.
+   A file made in the run folder, and one whose name has an unknown variable, is left out. Errors: BadInput if one
+   cannot be read. */
 std::vector<std::string> script_files(const std::string& script, const std::map<std::string, std::string>& values);
 
 // Runs a program and waits for it; true if it ended well. No shell: words may hold blanks.

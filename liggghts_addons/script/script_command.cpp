@@ -54,6 +54,8 @@ void ViEltoCommand::command(int narg, char** arg) {
     half_period(narg, arg);
   else if (what == "repeat" && narg > 2)
     repeat(narg, arg);
+  else if (what == "include" && narg == 4)
+    include(narg, arg);
   else if (what == "words" && narg > 2)
     set_variable(arg[1], joined(narg, arg, 2).c_str());
   else if (what == "property" && narg == 4)
@@ -72,8 +74,8 @@ void ViEltoCommand::command(int narg, char** arg) {
     close(narg, arg);
   else
     vielto::stop_all(lmp,
-                     "vielto: unknown form of this command; use setup, error, half_period, words, repeat, property, "
-                     "pair_property, law, clump, grains or close");
+                     "vielto: unknown form of this command; use setup, error, half_period, words, repeat, include, "
+                     "property, pair_property, law, clump, grains or close");
 }
 
 void ViEltoCommand::half_period(int, char** arg) {
@@ -225,6 +227,11 @@ void ViEltoCommand::repeat(int narg, char** arg) {
     }
     if (!until.empty() && value_of(until) != 0) return;
   }
+}
+
+void ViEltoCommand::include(int, char** arg) {
+  if (std::string(arg[2]) != "if") vielto::stop_all(lmp, "vielto: write 'vielto include FILE if NUMBER'");
+  if (force->numeric(FLERR, arg[3]) != 0) input->one(("include " + std::string(arg[1])).c_str());
 }
 
 double ViEltoCommand::value_of(std::string name) {

@@ -22,6 +22,7 @@
      vielto repeat N "COMMAND" ... [until NAME]
                                                N times these commands, with 1 ... N for % in them; ends after the time that leaves
                                                variable NAME other than 0
+     vielto include FILE if NUMBER             include FILE unless NUMBER is 0; LIGGGHTS' `if` takes no include
      vielto property NAME GRAIN WALL           fix NAME all property/global NAME peratomtype GRAIN WALL, with GRAIN again for
                                                a third type (fixed grains)
      vielto pair_property NAME GRAIN WALL      the same for a peratomtypepair: of grain on grain and of grain on wall
@@ -62,6 +63,7 @@ class ViEltoCommand : protected Pointers {
   void grains(int narg, char** arg);
   void setup(int narg, char** arg);
   void repeat(int narg, char** arg);
+  void include(int narg, char** arg);
   double value_of(std::string name);
   void share(std::vector<std::string>& texts);
   void close(int narg, char** arg);

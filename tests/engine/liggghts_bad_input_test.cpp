@@ -272,6 +272,25 @@ TEST(ViEltoCommand, RepeatsUntilItsVariableIsNotZero) {
   EXPECT_EQ(outcome.text.find("\ntime 4"), std::string::npos);
 }
 
+// LIGGGHTS refuses include within its own `if`.
+TEST(ViEltoCommand, IncludesAFileUnlessTheNumberIsZero) {
+  Liggghts run;
+  run.write("bed.in", "print 'a bed of ${k}'\n");
+  run.script = head(run, {Sphere()}, {Material()}, 0.05) +
+               "variable k equal 0\nvielto include bed.in if ${k}\n"
+               "variable k equal 2\nvielto include bed.in if ${k}\nprint 'and on'\n";
+  const Outcome outcome = run.start();
+  EXPECT_EQ(outcome.status, 0) << outcome.text;
+  EXPECT_NE(outcome.text.find("\na bed of 2\nand on\n"), std::string::npos) << outcome.text;
+  EXPECT_EQ(outcome.text.find("\na bed of 0"), std::string::npos);
+}
+
+TEST(ViEltoCommand, IncludeWithoutIfIsAnError) {
+  Liggghts run;
+  run.script = head(run, {Sphere()}, {Material()}, 0.05) + "vielto include bed.in unless 1\n";
+  expect_error(run, {"vielto include FILE if NUMBER"});
+}
+
 TEST(ViEltoCommand, RepeatUntilAnUnknownVariableIsAnError) {
   Liggghts run;
   run.script = head(run, {Sphere()}, {Material()}, 0.05) + "vielto repeat 9 \"run 1\" until nothing\n";

@@ -316,10 +316,11 @@ TEST(MixerRun, FolderStatesParametersAndInputs) {
       steel.find("variable frictionAngle index " + run["parameters"]["wall_frictionAngle"].get<std::string>() + " "),
       std::string::npos);
   EXPECT_EQ(run["parameters"]["seed"], "1");
-  for (const char* file : {"in.mixer", "mixer.par", "../law.par", "../card.par", "../engine.in", "../law.in",
-                           "../drag.in", "../../materials/hulled_millet.par", "../../materials/steel.par"})
+  for (const char* file :
+       {"in.mixer", "bed.in", "mixer.par", "../law.par", "../card.par", "../engine.in", "../law.in", "../drag.in",
+        "../filling.in", "../../materials/hulled_millet.par", "../../materials/steel.par"})
     EXPECT_EQ(run["hashes"].value(file, "").size(), 64u) << file;
-  EXPECT_EQ(run["hashes"].size(), 9u) << run["hashes"];
+  EXPECT_EQ(run["hashes"].size(), 11u) << run["hashes"];
   EXPECT_NE(run["command"].get<std::string>().find("-in in.mixer"), std::string::npos);
   EXPECT_EQ(run["versions"].size(), 2u);
 }

@@ -69,8 +69,8 @@ echo "Slurm of one node is up"
 
 # the case's own files, so that the source folder stays clean; its paths lead to materials/
 mkdir -p "$work/mixer/a"
-cp -r cases/{law.par,card.par,law.in,drag.in,engine.in} "$work"
-cp -r cases/mixer/{in.mixer,mixer.par,slurm} "$work/mixer"
+cp -r cases/{law.par,card.par,law.in,drag.in,engine.in,filling.in} "$work"
+cp -r cases/mixer/{in.mixer,bed.in,mixer.par,slurm} "$work/mixer"
 cd "$work/mixer"
 small=(-var materials "$OLDPWD/materials" -var slicePaddles 4 -var fill 0.03 -var grainDiameter 0.014 -var youngsModulus 5e5
   -var wall_youngsModulus 5e5 -var settleTime 0.25 -var rowsPerTurn 360)
