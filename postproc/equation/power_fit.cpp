@@ -102,6 +102,10 @@ void add_notes(PowerFit& fit) {
   if (fit.equation.provisional) fit.notes.push_back("provisional: a material card is not calibrated yet");
 }
 
+double scale_of(const PowerStream::Row& row, PowerNumber number) {
+  return number == PowerNumber::n_pc ? row.scale_n_pc : row.scale_n_p;
+}
+
 // The errors of the equations over the rows of a long table.
 void add_long_errors(const PowerStream& stream, PowerFit& fit) {
   RelativeErrorSum booklet, check;
@@ -122,9 +126,108 @@ void add_long_errors(const PowerStream& stream, PowerFit& fit) {
             fmt::format("holds rows of role check that need {} apart, which the fit does not determine", a.name),
             fmt::format("fit rows that tell it apart, or fix it (--fix {}=VALUE)", a.name));
     }
-    check.add(row.power,
-              std::exp(x.dot(e.parameters)) * (e.number == PowerNumber::n_pc ? row.scale_n_pc : row.scale_n_p));
+    check.add(row.power, std::exp(x.dot(e.parameters)) * scale_of(row, e.number));
   });
+  fit.booklet_errors = booklet.errors();
+  fit.check_errors = check.errors();
+}
+
+// Groups that are asked for or fixed, but for those that are constant and free: they merge into B0.
+std::vector<int> groups_that_vary(const PowerFitRequest& request, const std::string& file, PowerFit& fit) {
+  std::set<int> chosen(request.groups.begin(), request.groups.end());
+  for (const auto& [name, value] : request.fixed)
+    if (name != "B0") chosen.insert(group_of_coefficient(name));
+  std::vector<int> groups;
+  for (const int g : chosen) {
+    const std::optional<FittedRange>& range = fit.equation.group_range[g];
+    if (!range) throw BadInput(file, 0, fmt::format("has rows without {}", kGroupNames[g]), "give " + needed_for(g));
+    const bool fixed = request.fixed.count(fmt::format("B{}", g + 1)) > 0;
+    (is_constant(*range) && !fixed ? fit.merged : groups).push_back(g);
+  }
+  return groups;
+}
+
+// Ranges of the groups and of the lever, and whether a card is provisional, over the rows at hand.
+void set_ranges(const std::vector<PowerRow>& rows, Equation& equation) {
+  for (int g = 0; g < kGroupCount; ++g) equation.group_range[g] = range_over(rows, g);
+  equation.lever = {rows.front().mixer.lever, rows.front().mixer.lever};
+  for (const PowerRow& row : rows) {
+    equation.lever = {std::min(equation.lever.low, row.mixer.lever), std::max(equation.lever.high, row.mixer.lever)};
+    equation.provisional = equation.provisional || row.material.provisional;
+  }
+}
+
+// The same over all rows of a long table.
+void set_ranges(const PowerStream& stream, Equation& equation) {
+  for (int g = 0; g < kGroupCount; ++g) equation.group_range[g] = stream.group_range[g];
+  equation.lever = stream.lever;
+  equation.provisional = stream.provisional;
+}
+
+// The rows at hand as numbers and groups. Sets number and number_u.
+PowerLawProblem problem_of(const PowerFitRequest& request, const std::vector<int>& groups, PowerFit& fit) {
+  const std::vector<PowerRow>& rows = fit.data.fit;
+  const auto n = static_cast<Eigen::Index>(rows.size());
+  PowerLawProblem problem;
+  problem.objective = request.objective;
+  problem.fixed = request.fixed;
+  problem.log_groups.resize(n, static_cast<Eigen::Index>(groups.size()));
+  for (const int g : groups) problem.names.push_back(fmt::format("B{}", g + 1));
+  fit.number.resize(n);
+  fit.number_u.resize(n);
+  Eigen::VectorXd inverse_scale(n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const PowerRow& row = rows[i];
+    inverse_scale[i] = 1 / power_scale(request.number, *row.observation.speed, row.mixer, row.material);
+    fit.number[i] = row.observation.value * inverse_scale[i];
+    fit.number_u[i] = row.observation.u * inverse_scale[i];
+    for (std::size_t j = 0; j < groups.size(); ++j)
+      problem.log_groups(i, static_cast<Eigen::Index>(j)) = std::log(*row.groups[groups[j]]);
+  }
+  problem.observed = fit.number;
+  if (request.weighted)
+    problem.covariance = inverse_scale.asDiagonal() * fit.data.covariance * inverse_scale.asDiagonal();
+  return problem;
+}
+
+// Every fit row of a long table, as power_law.h takes them.
+void each_row(const PowerStream& stream, const std::vector<int>& groups, PowerNumber number,
+              const PowerLawProblem::UseRow& use) {
+  std::vector<double> logs(groups.size());
+  stream.for_each([&](const PowerStream::Row& row) {
+    if (row.check != 0) return;
+    for (std::size_t j = 0; j < groups.size(); ++j) logs[j] = std::log(row.groups[groups[j]]);
+    const double scale = scale_of(row, number);
+    use(logs.data(), row.power / scale, row.u / scale);
+  });
+}
+
+// fit_power_law, its reasons with the file that is to be mended.
+PowerLawFit solve(const PowerLawProblem& problem, const std::string& file, const PowerData& data) {
+  try {
+    return fit_power_law(problem);
+  } catch (const std::invalid_argument& error) {
+    if (std::string(error.what()).find("covariance") == std::string::npos)
+      throw BadInput(file, 0, error.what(), "give more rows or fewer groups");
+    throw BadInput(data.covariance_paths.empty() ? file : data.covariance_paths.front(), 0, error.what(),
+                   "correct the covariances, or leave out a row that repeats another");
+  }
+}
+
+// The errors of the booklet's equation over the fit rows, and of the fitted one over the check rows.
+void add_errors(PowerFit& fit) {
+  RelativeErrorSum booklet, check;
+  for (const PowerRow& row : fit.data.fit)
+    booklet.add(row.observation.value, thesis_power(*row.observation.fill, row.mixer.lever, *row.observation.speed,
+                                                    *row.material.bulk_density, *row.material.bulk_cohesion));
+  fit.check_power.resize(static_cast<Eigen::Index>(fit.data.check.size()));
+  for (std::size_t i = 0; i < fit.data.check.size(); ++i) {
+    const PowerRow& row = fit.data.check[i];
+    const double power =
+        predict(fit.equation, row.file, row.groups, *row.observation.speed, row.mixer, row.material).power;
+    fit.check_power[static_cast<Eigen::Index>(i)] = power;
+    check.add(row.observation.value, power);
+  }
   fit.booklet_errors = booklet.errors();
   fit.check_errors = check.errors();
 }
@@ -134,68 +237,20 @@ PowerFit fit_rows(const PowerFitRequest& request, PowerData all_rows, const Powe
   fit.request = request;
   fit.data = std::move(all_rows);
   const PowerData& data = fit.data;
-  const std::vector<PowerRow>& rows = data.fit;
-  if (rows.empty())
+  if (data.fit.empty())
     throw BadInput(data.check.front().file, 0, "holds no power row of role fit", "give role fit to the rows to use");
-  const std::string& file = rows.front().file;
+  const std::string& file = data.fit.front().file;
 
-  std::set<int> chosen(request.groups.begin(), request.groups.end());
-  for (const auto& [name, value] : request.fixed)
-    if (name != "B0") chosen.insert(group_of_coefficient(name));
-  std::vector<int> groups;
   Equation& equation = fit.equation;
-  for (int g = 0; g < kGroupCount; ++g) equation.group_range[g] = stream ? stream->group_range[g] : range_over(rows, g);
-  for (const int g : chosen) {
-    if (!equation.group_range[g])
-      throw BadInput(file, 0, fmt::format("has rows without {}", kGroupNames[g]), "give " + needed_for(g));
-    const bool fixed = request.fixed.count(fmt::format("B{}", g + 1)) > 0;
-    (is_constant(*equation.group_range[g]) && !fixed ? fit.merged : groups).push_back(g);
-  }
-
-  const auto n = static_cast<Eigen::Index>(rows.size());
-  const auto k = static_cast<Eigen::Index>(groups.size());
-  PowerLawProblem problem;
-  problem.objective = request.objective;
-  problem.fixed = request.fixed;
-  problem.log_groups.resize(n, k);
-  for (const int g : groups) problem.names.push_back(fmt::format("B{}", g + 1));
-  fit.number.resize(n);
-  fit.number_u.resize(n);
-  Eigen::VectorXd inverse_scale(n);
-  equation.lever = {rows.front().mixer.lever, rows.front().mixer.lever};
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const PowerRow& row = rows[i];
-    inverse_scale[i] = 1 / power_scale(request.number, *row.observation.speed, row.mixer, row.material);
-    fit.number[i] = row.observation.value * inverse_scale[i];
-    fit.number_u[i] = row.observation.u * inverse_scale[i];
-    for (Eigen::Index j = 0; j < k; ++j) problem.log_groups(i, j) = std::log(*row.groups[groups[j]]);
-    equation.lever = {std::min(equation.lever.low, row.mixer.lever), std::max(equation.lever.high, row.mixer.lever)};
-    equation.provisional = equation.provisional || row.material.provisional;
-  }
-  if (stream) {
-    equation.lever = stream->lever;
-    equation.provisional = stream->provisional;
-    problem.all_rows = [&](const PowerLawProblem::UseRow& use) {
-      std::vector<double> logs(groups.size());
-      stream->for_each([&](const PowerStream::Row& row) {
-        if (row.check != 0) return;
-        for (std::size_t j = 0; j < groups.size(); ++j) logs[j] = std::log(row.groups[groups[j]]);
-        const double scale = request.number == PowerNumber::n_pc ? row.scale_n_pc : row.scale_n_p;
-        use(logs.data(), row.power / scale, row.u / scale);
-      });
-    };
-  }
-  problem.observed = fit.number;
-  if (request.weighted) problem.covariance = inverse_scale.asDiagonal() * data.covariance * inverse_scale.asDiagonal();
-  try {
-    fit.law = fit_power_law(problem);
-  } catch (const std::invalid_argument& error) {
-    const std::string& culprit = data.covariance_paths.empty() ? file : data.covariance_paths.front();
-    const bool covariance = std::string(error.what()).find("covariance") != std::string::npos;
-    throw BadInput(covariance ? culprit : file, 0, error.what(),
-                   covariance ? "correct the covariances, or leave out a row that repeats another"
-                              : "give more rows or fewer groups");
-  }
+  if (stream)
+    set_ranges(*stream, equation);
+  else
+    set_ranges(data.fit, equation);
+  const std::vector<int> groups = groups_that_vary(request, file, fit);
+  PowerLawProblem problem = problem_of(request, groups, fit);
+  if (stream)
+    problem.all_rows = [&](const PowerLawProblem::UseRow& use) { each_row(*stream, groups, request.number, use); };
+  fit.law = solve(problem, file, data);
 
   equation.number = request.number;
   equation.names = fit.law.names;
@@ -204,35 +259,14 @@ PowerFit fit_rows(const PowerFitRequest& request, PowerData all_rows, const Powe
   equation.quantile = fit.law.quantile;
   equation.scatter = fit.law.relative_scatter;
   equation.aliases = fit.law.aliases;
-
-  if (stream) {
+  if (stream)
     add_long_errors(*stream, fit);
-    add_notes(fit);
-    if (fit.law.rows > n)
-      fit.notes.push_back(fmt::format("residuals and their tables are of {} of the {} rows", n, fit.law.rows));
-    return fit;
-  }
-
-  Eigen::VectorXd booklet(n), power(n);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const PowerRow& row = rows[i];
-    power[i] = row.observation.value;
-    booklet[i] = thesis_power(*row.observation.fill, row.mixer.lever, *row.observation.speed,
-                              *row.material.bulk_density, *row.material.bulk_cohesion);
-  }
-  fit.booklet_errors = relative_errors(power, booklet);
-  if (!data.check.empty()) {
-    const auto m = static_cast<Eigen::Index>(data.check.size());
-    Eigen::VectorXd observed(m), predicted(m);
-    for (Eigen::Index i = 0; i < m; ++i) {
-      const PowerRow& row = data.check[i];
-      observed[i] = row.observation.value;
-      predicted[i] = predict(equation, row.file, row.groups, *row.observation.speed, row.mixer, row.material).power;
-    }
-    fit.check_errors = relative_errors(observed, predicted);
-    fit.check_power = predicted;
-  }
+  else
+    add_errors(fit);
   add_notes(fit);
+  if (stream && fit.law.rows > problem.observed.size())
+    fit.notes.push_back(
+        fmt::format("residuals and their tables are of {} of the {} rows", problem.observed.size(), fit.law.rows));
   return fit;
 }
 

@@ -143,6 +143,72 @@ void add_combinations(const PowerLawProblem& problem, PowerLawFit& fit) {
   }
 }
 
+// Which coefficients are fitted, and in what coordinates: those fixed make an offset of ln f, aliases are set apart,
+// and the columns of the rest are centred. ln B0 and the exponents are then nearly independent, which the least squares
+// likes. design row = to_design (1, ln groups) - means; parameters = fixed + to_parameters (fitted ones).
+struct Coordinates {
+  bool free_factor = true;
+  std::vector<bool> is_fixed;  // k, of the exponents
+  Aliasing aliasing;
+  Eigen::Index count = 0;         // p, those fitted
+  Eigen::MatrixXd to_design;      // p x (k + 1)
+  Eigen::MatrixXd to_parameters;  // (k + 1) x p
+  Eigen::VectorXd means;          // p
+  Eigen::VectorXd fixed;          // k + 1, ln B0 and the exponents; 0 where they are free
+
+  explicit Coordinates(const PowerLawProblem& problem);
+  // Of the j-th group that is kept.
+  Eigen::Index column(std::size_t j) const { return (free_factor ? 1 : 0) + static_cast<Eigen::Index>(j); }
+  // The constant of an alias among its weights.
+  double constant(const Eigen::VectorXd& weights) const { return free_factor ? weights[0] : 0; }
+  Eigen::MatrixXd design(const Eigen::MatrixXd& log_groups) const;
+  Eigen::VectorXd offset(const Eigen::MatrixXd& log_groups) const;
+};
+
+Coordinates::Coordinates(const PowerLawProblem& problem) {
+  const Eigen::Index k = problem.log_groups.cols();
+  is_fixed.assign(k, false);
+  fixed = Eigen::VectorXd::Zero(k + 1);
+  for (const auto& [name, value] : problem.fixed) {
+    if (name == "B0") {
+      free_factor = false;
+      fixed[0] = std::log(value);
+    }
+    for (Eigen::Index j = 0; j < k; ++j)
+      if (name == problem.names[j]) {
+        is_fixed[j] = true;
+        fixed[j + 1] = value;
+      }
+  }
+  aliasing = find_aliases(problem.log_groups, free_factor, is_fixed);
+  count = column(aliasing.kept.size());
+  to_design = Eigen::MatrixXd::Zero(count, k + 1);
+  to_parameters = Eigen::MatrixXd::Zero(k + 1, count);
+  means = Eigen::VectorXd::Zero(count);
+  if (free_factor) to_design(0, 0) = to_parameters(0, 0) = 1;
+  for (std::size_t j = 0; j < aliasing.kept.size(); ++j) {
+    const Eigen::Index group = aliasing.kept[j];
+    if (free_factor) means[column(j)] = problem.log_groups.col(group).mean();
+    to_design(column(j), group + 1) = to_parameters(group + 1, column(j)) = 1;
+    to_parameters(0, column(j)) = -means[column(j)];
+  }
+}
+
+Eigen::MatrixXd Coordinates::design(const Eigen::MatrixXd& log_groups) const {
+  Eigen::MatrixXd d = Eigen::MatrixXd::Ones(log_groups.rows(), count);
+  for (std::size_t j = 0; j < aliasing.kept.size(); ++j)
+    d.col(column(j)) = log_groups.col(aliasing.kept[j]).array() - means[column(j)];
+  return d;
+}
+
+Eigen::VectorXd Coordinates::offset(const Eigen::MatrixXd& log_groups) const {
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(log_groups.rows());
+  for (Eigen::Index j = 0; j < log_groups.cols(); ++j)
+    if (is_fixed[j]) sum += fixed[j + 1] * log_groups.col(j);
+  if (!free_factor) sum.array() += fixed[0];
+  return sum;
+}
+
 // Sums over rows, one at a time, for the statistics of a fit.
 struct Sums {
   double n = 0, squares = 0, loo_squares = 0, scatter = 0, mean = 0, total = 0;
@@ -183,9 +249,8 @@ WhitenedRow whitened(Objective objective, double log_f, double y, double u) {
 // All rows of a long table in the coordinates of the fit: offset and design row of a row's groups.
 class LongTable {
  public:
-  LongTable(const PowerLawProblem& problem, bool weighted, const Eigen::MatrixXd& to_design,
-            const Eigen::VectorXd& means, const Eigen::VectorXd& fixed)
-      : problem_(problem), weighted_(weighted), to_design_(to_design), means_(means), fixed_(fixed) {}
+  LongTable(const PowerLawProblem& problem, bool weighted, const Coordinates& coordinates)
+      : problem_(problem), weighted_(weighted), at_(coordinates) {}
 
   // use(ln groups with a leading 1, design row, offset of ln f, y, u)
   template <class Use>
@@ -195,7 +260,7 @@ class LongTable {
     problem_.all_rows([&](const double* groups, double y, double u) {
       for (Eigen::Index j = 0; j < k; ++j) logs[j + 1] = groups[j];
       const double log_unit = problem_.objective == Objective::log ? y : 1;  // rows alike: u = 1 of what is compared
-      use(logs, Eigen::VectorXd(to_design_ * logs - means_), fixed_.dot(logs), y, weighted_ ? u : log_unit);
+      use(logs, Eigen::VectorXd(at_.to_design * logs - at_.means), at_.fixed.dot(logs), y, weighted_ ? u : log_unit);
     });
   }
 
@@ -229,12 +294,165 @@ class LongTable {
     throw std::runtime_error("the sums over all rows do not come to a minimum from the fit of a sample of them");
   }
 
+  // What the sample does not tell apart, no row may.
+  void check_aliases() const {
+    for_each([&](const Eigen::VectorXd& logs, const Eigen::VectorXd&, double, double, double) {
+      for (const auto& [alias, weights] : at_.aliasing.aliases) {
+        double value = at_.constant(weights);
+        for (std::size_t j = 0; j < at_.aliasing.kept.size(); ++j)
+          value += weights[at_.column(j)] * logs[at_.aliasing.kept[j] + 1];
+        constexpr double kSlack = 1e-5;
+        if (std::fabs(logs[alias + 1] - value) > kSlack)
+          throw std::invalid_argument(
+              "few rows tell coefficients apart that a sample of the rows does not; give those rows a table of their "
+              "own");
+      }
+    });
+  }
+
  private:
   const PowerLawProblem& problem_;
   bool weighted_;
-  Eigen::MatrixXd to_design_;  // p x (k + 1), of (1, ln groups)
-  Eigen::VectorXd means_, fixed_;
+  const Coordinates& at_;
 };
+
+// The least squares of the rows at hand.
+struct Solved {
+  bool weighted;
+  Eigen::MatrixXd design;
+  Eigen::VectorXd offset;
+  Weights weights;
+  NonlinearFit fit;
+};
+
+// Nonlinear from the weighted log-linear solution, in the errors of the objective.
+Solved solve(const PowerLawProblem& problem, const Coordinates& at) {
+  const Eigen::VectorXd& y = problem.observed;
+  const Eigen::Index n = y.size(), p = at.count;
+  const bool log = problem.objective == Objective::log, relative = problem.objective == Objective::relative;
+  const bool weighted = problem.covariance.rows() > 0 && !relative;
+  const Eigen::MatrixXd design = at.design(problem.log_groups);
+  const Eigen::VectorXd offset = at.offset(problem.log_groups);
+  const Eigen::VectorXd inverse = y.cwiseInverse(), log_y = y.array().log();
+  Weights weights = weighted ? Weights::correlated(problem.covariance) : Weights::equal(n);
+  const Weights log_weights = weighted ? weights.scaled(inverse) : weights;
+  const Eigen::VectorXd start = solve_linear(log_weights.whiten(design), log_weights.whiten(log_y - offset));
+  if (log) weights = log_weights;
+  const auto model = [&](const auto* b, auto* f) {
+    for (Eigen::Index i = 0; i < n; ++i) {
+      auto sum = b[0] * design(i, 0);
+      for (Eigen::Index j = 1; j < p; ++j) sum += b[j] * design(i, j);
+      sum += offset[i];
+      f[i] = log ? sum : exp(sum) * (relative ? inverse[i] : 1.0);
+    }
+    return true;
+  };
+  const Eigen::VectorXd target = log ? log_y : relative ? Eigen::VectorXd(Eigen::VectorXd::Ones(n)) : y;
+  NonlinearFit fit = nonlinear_least_squares_of(model, target, weights, start);
+  return {weighted, design, offset, weights, fit};
+}
+
+// Parameters, and their covariance on the basis that chi2 allows.
+void set_parameters(const Coordinates& at, const Solved& solved, PowerLawFit& fit) {
+  const NonlinearFit& solution = solved.fit;
+  fit.rows = static_cast<long>(solution.degrees_of_freedom + at.count);
+  fit.degrees_of_freedom = static_cast<int>(solution.degrees_of_freedom);
+  fit.chi2 = solved.weighted ? solution.chi2 : 0;
+  fit.chi2_exceedance = solved.weighted ? chi2_exceedance(solution.chi2, fit.degrees_of_freedom) : 1;
+  const bool trust_u = solved.weighted && fit.chi2_exceedance >= kImprobable;
+  fit.interval_basis = trust_u ? "u" : "scatter";
+  fit.quantile = trust_u ? kNormal975 : t975(fit.degrees_of_freedom);
+  fit.parameters = at.fixed + at.to_parameters * solution.parameters;
+  fit.covariance = at.to_parameters * solution.covariance * at.to_parameters.transpose();
+  const Eigen::VectorXd root = fit.covariance.diagonal().cwiseMax(0).cwiseSqrt();
+  fit.standard_error_from_u = solved.weighted ? root : Eigen::VectorXd(Eigen::VectorXd::Zero(root.size()));
+  fit.standard_error_from_scatter = root * std::sqrt(solution.residual_variance());
+  if (!trust_u) fit.covariance *= solution.residual_variance();
+}
+
+// An alias takes its exponents with it: those it is mixed with are no longer determined, nor is B0.
+void set_coefficients(const PowerLawProblem& problem, const Coordinates& at, PowerLawFit& fit) {
+  const Eigen::Index k = problem.log_groups.cols();
+  std::vector<bool> mixed(k + 1, false);
+  for (const auto& [column, weights] : at.aliasing.aliases) {
+    Alias alias{problem.names[column], at.constant(weights), Eigen::VectorXd::Zero(k)};
+    mixed[column + 1] = true;
+    mixed[0] = mixed[0] || std::fabs(alias.constant) > kAliasTolerance;
+    for (std::size_t j = 0; j < at.aliasing.kept.size(); ++j) {
+      const double w = weights[at.column(j)];
+      if (std::fabs(w) <= kAliasTolerance) continue;
+      alias.weights[at.aliasing.kept[j]] = w;
+      mixed[at.aliasing.kept[j] + 1] = true;
+    }
+    fit.aliases.push_back(alias);
+  }
+  for (Eigen::Index j = 0; j <= k; ++j) {
+    if (mixed[j]) {
+      fit.undetermined.push_back(fit.names[j]);
+      continue;
+    }
+    Coefficient c = estimate(fit, fit.names[j], Eigen::VectorXd::Unit(k + 1, j));
+    c.fixed = problem.fixed.count(fit.names[j]) > 0;
+    fit.coefficients.push_back(c);
+  }
+  add_combinations(problem, fit);
+}
+
+// f of a row by the equation fitted without it, from its ln f by all rows: `step` is C J' v of the row, q = v - step.vj
+// what is left of its weight v, vr its weighted residual. A row that alone determines a coefficient is out of reach.
+double without_row(double log_f, const Eigen::VectorXd& x, const Eigen::VectorXd& step, double q, double v, double vr) {
+  return q > 1e-12 * v ? std::exp(log_f - x.dot(step) * (vr / q)) : std::numeric_limits<double>::infinity();
+}
+
+// Rows by the equation, and by the one fitted without them, where the rows at hand are all.
+Sums judge_rows(const PowerLawProblem& problem, const Solved& solved, PowerLawFit& fit) {
+  const Eigen::MatrixXd vj = solved.weights.precision_times(solved.fit.jacobian);  // V^-1 J
+  const Eigen::VectorXd vr = solved.weights.precision_times(solved.fit.residuals);
+  const Eigen::VectorXd v = solved.weights.precision_diagonal();
+  Sums sums;
+  for (Eigen::Index i = 0; i < problem.observed.size(); ++i) {
+    const double log_f = solved.offset[i] + solved.design.row(i).dot(solved.fit.parameters);
+    fit.fitted[i] = std::exp(log_f);
+    // At the minimum J' V^-1 r = 0, so Q r = V^-1 r.
+    const Eigen::VectorXd step = solved.fit.covariance * vj.row(i).transpose();
+    fit.leave_one_out[i] = without_row(log_f, solved.design.row(i), step, v[i] - vj.row(i).dot(step), v[i], vr[i]);
+    sums.add(problem.observed[i], fit.fitted[i], fit.leave_one_out[i]);
+  }
+  return sums;
+}
+
+// The same of a long table: sums of all its rows, numbers of the sample's.
+Sums judge_rows(const PowerLawProblem& problem, const Solved& solved, const LongTable& all, PowerLawFit& fit) {
+  const auto of_row = [&](const Eigen::VectorXd& x, double offset, double observed, double u) {
+    const double log_f = offset + x.dot(solved.fit.parameters);
+    const WhitenedRow row = whitened(problem.objective, log_f, observed, u);
+    const Eigen::VectorXd step = solved.fit.covariance * x * row.factor;
+    return std::pair(std::exp(log_f), without_row(log_f, x, step, 1 - row.factor * x.dot(step), 1, row.residual));
+  };
+  Sums sums;
+  all.for_each([&](const Eigen::VectorXd&, const Eigen::VectorXd& x, double offset, double observed, double u) {
+    const auto [fitted, left_out] = of_row(x, offset, observed, u);
+    sums.add(observed, fitted, left_out);
+  });
+  for (Eigen::Index i = 0; i < problem.observed.size(); ++i) {
+    const double y = problem.observed[i], alike = problem.objective == Objective::log ? y : 1;
+    const int at = static_cast<int>(i);
+    const double u = solved.weighted ? std::sqrt(problem.covariance.coeff(at, at)) : alike;
+    std::tie(fit.fitted[i], fit.leave_one_out[i]) = of_row(solved.design.row(i), solved.offset[i], y, u);
+  }
+  return sums;
+}
+
+void set_statistics(const Sums& sums, PowerLawFit& fit) {
+  const auto dof = static_cast<double>(fit.degrees_of_freedom);
+  fit.r2 = sums.total > 0 ? 1 - sums.squares / sums.total : 0;
+  fit.adjusted_r2 = sums.total > 0 ? 1 - (sums.squares / dof) / (sums.total / (sums.n - 1)) : 0;
+  fit.rmse = std::sqrt(sums.squares / sums.n);
+  fit.leave_one_out_rmse = std::sqrt(sums.loo_squares / sums.n);
+  fit.relative_scatter = std::sqrt(sums.scatter / dof);
+  fit.errors = sums.errors.errors();
+  fit.leave_one_out_errors = sums.leave_one_out.errors();
+}
 
 }  // namespace
 
@@ -256,191 +474,31 @@ RelativeErrors relative_errors(const Eigen::VectorXd& observed, const Eigen::Vec
 
 PowerLawFit fit_power_law(const PowerLawProblem& problem) {
   check(problem);
-  const Eigen::VectorXd& y = problem.observed;
-  const Eigen::Index n = y.size(), k = problem.log_groups.cols();
-  PowerLawFit fit;
-  fit.names = {"B0"};
-  fit.names.insert(fit.names.end(), problem.names.begin(), problem.names.end());
-  fit.parameters = Eigen::VectorXd::Zero(k + 1);
-
-  // Fixed coefficients make an offset of ln f; the rest are told apart or not.
-  Eigen::VectorXd offset = Eigen::VectorXd::Zero(n);
-  std::vector<bool> skip(k, false);
-  for (Eigen::Index j = 0; j < k; ++j) {
-    const auto fixed = problem.fixed.find(problem.names[j]);
-    if (fixed == problem.fixed.end()) continue;
-    skip[j] = true;
-    fit.parameters[j + 1] = fixed->second;
-    offset += fixed->second * problem.log_groups.col(j);
-  }
-  const auto fixed_factor = problem.fixed.find("B0");
-  const bool free_factor = fixed_factor == problem.fixed.end();
-  if (!free_factor) {
-    fit.parameters[0] = std::log(fixed_factor->second);
-    offset.array() += fit.parameters[0];
-  }
-  const Aliasing aliasing = find_aliases(problem.log_groups, free_factor, skip);
-  const Eigen::Index constants = free_factor ? 1 : 0;
-  const Eigen::Index p = constants + static_cast<Eigen::Index>(aliasing.kept.size());
-  fit.rank = static_cast<int>(p);
-  fit.columns = fit.rank + static_cast<int>(aliasing.aliases.size());
-  fit.condition = condition_number(problem.log_groups, free_factor, skip);
+  const Coordinates at(problem);
+  const Eigen::Index n = problem.observed.size(), p = at.count;
   if (p == 0) throw std::invalid_argument("every coefficient is fixed; leave one free");
   if (n <= p)
     throw std::invalid_argument(
         fmt::format("{} rows for {} coefficients leave nothing to judge the fit by; add rows or fix exponents", n, p));
 
-  // Centred columns: ln B0 and the exponents are then nearly independent, which the least squares likes.
-  Eigen::MatrixXd design = Eigen::MatrixXd::Ones(n, p);
-  Eigen::MatrixXd to_parameters = Eigen::MatrixXd::Zero(k + 1, p);
-  if (free_factor) to_parameters(0, 0) = 1;
-  for (std::size_t j = 0; j < aliasing.kept.size(); ++j) {
-    const Eigen::Index column = constants + static_cast<Eigen::Index>(j), group = aliasing.kept[j];
-    const double mean = free_factor ? problem.log_groups.col(group).mean() : 0;
-    design.col(column) = problem.log_groups.col(group).array() - mean;
-    to_parameters(group + 1, column) = 1;
-    to_parameters(0, column) = -mean;
-  }
+  PowerLawFit fit;
+  fit.names = {"B0"};
+  fit.names.insert(fit.names.end(), problem.names.begin(), problem.names.end());
+  fit.rank = static_cast<int>(p);
+  fit.columns = fit.rank + static_cast<int>(at.aliasing.aliases.size());
+  fit.condition = condition_number(problem.log_groups, at.free_factor, at.is_fixed);
 
-  const bool weighted = problem.covariance.rows() > 0 && problem.objective != Objective::relative;
-  const Eigen::VectorXd inverse = y.cwiseInverse();
-  Weights weights = weighted ? Weights::correlated(problem.covariance) : Weights::equal(n);
-  const Weights log_weights = weighted ? weights.scaled(inverse) : weights;
-  const Eigen::VectorXd log_y = y.array().log();
-  const Eigen::VectorXd start = solve_linear(log_weights.whiten(design), log_weights.whiten(log_y - offset));
-
-  const bool log = problem.objective == Objective::log;
-  const bool relative = problem.objective == Objective::relative;
-  if (log) weights = log_weights;
-  const auto model = [&](const auto* b, auto* f) {
-    for (Eigen::Index i = 0; i < n; ++i) {
-      auto sum = b[0] * design(i, 0);
-      for (Eigen::Index j = 1; j < p; ++j) sum += b[j] * design(i, j);
-      sum += offset[i];
-      f[i] = log ? sum : exp(sum) * (relative ? inverse[i] : 1.0);
-    }
-    return true;
-  };
-  const Eigen::VectorXd target = log ? log_y : relative ? Eigen::VectorXd(Eigen::VectorXd::Ones(n)) : y;
-  NonlinearFit solution = nonlinear_least_squares_of(model, target, weights, start);
-
-  // The same coordinates for all rows of a long table: design row = to_design (1, ln groups) - means.
-  Eigen::MatrixXd to_design = Eigen::MatrixXd::Zero(p, k + 1);
-  Eigen::VectorXd means = Eigen::VectorXd::Zero(p), fixed_part = Eigen::VectorXd::Zero(k + 1);
-  if (free_factor) to_design(0, 0) = 1;
-  for (std::size_t j = 0; j < aliasing.kept.size(); ++j) {
-    const Eigen::Index column = constants + static_cast<Eigen::Index>(j);
-    to_design(column, aliasing.kept[j] + 1) = 1;
-    means[column] = free_factor ? problem.log_groups.col(aliasing.kept[j]).mean() : 0;
-  }
-  if (!free_factor) fixed_part[0] = std::log(fixed_factor->second);
-  for (Eigen::Index j = 0; j < k; ++j)
-    if (const auto fixed = problem.fixed.find(problem.names[j]); fixed != problem.fixed.end())
-      fixed_part[j + 1] = fixed->second;
-  const LongTable all(problem, weighted, to_design, means, fixed_part);
+  Solved solved = solve(problem, at);
+  const LongTable all(problem, solved.weighted, at);
   if (problem.all_rows) {
-    all.refine(solution);
-    // What the sample does not tell apart, no row may.
-    all.for_each([&](const Eigen::VectorXd& logs, const Eigen::VectorXd&, double, double, double) {
-      for (const auto& [column, weight] : aliasing.aliases) {
-        double value = free_factor ? weight[0] : 0;
-        for (std::size_t j = 0; j < aliasing.kept.size(); ++j)
-          value += weight[constants + static_cast<Eigen::Index>(j)] * logs[aliasing.kept[j] + 1];
-        constexpr double kSlack = 1e-5;
-        if (std::fabs(logs[column + 1] - value) > kSlack)
-          throw std::invalid_argument(
-              "few rows tell coefficients apart that a sample of the rows does not; give those rows a table of their "
-              "own");
-      }
-    });
+    all.refine(solved.fit);
+    all.check_aliases();
   }
-  fit.rows = static_cast<long>(solution.degrees_of_freedom + p);
-
-  fit.degrees_of_freedom = static_cast<int>(solution.degrees_of_freedom);
-  fit.chi2 = weighted ? solution.chi2 : 0;
-  fit.chi2_exceedance = weighted ? chi2_exceedance(solution.chi2, fit.degrees_of_freedom) : 1;
-  const bool trust_u = weighted && fit.chi2_exceedance >= kImprobable;
-  fit.interval_basis = trust_u ? "u" : "scatter";
-  fit.quantile = trust_u ? kNormal975 : t975(fit.degrees_of_freedom);
-  fit.parameters += to_parameters * solution.parameters;
-  fit.covariance = to_parameters * solution.covariance * to_parameters.transpose();
-  const Eigen::VectorXd root = fit.covariance.diagonal().cwiseMax(0).cwiseSqrt();
-  fit.standard_error_from_u = weighted ? root : Eigen::VectorXd(Eigen::VectorXd::Zero(k + 1));
-  fit.standard_error_from_scatter = root * std::sqrt(solution.residual_variance());
-  if (!trust_u) fit.covariance *= solution.residual_variance();
-
-  // An alias takes its exponents with it: those it is mixed with are no longer determined, nor is B0.
-  std::vector<bool> mixed(k + 1, false);
-  for (const auto& [column, weight] : aliasing.aliases) {
-    Alias alias{problem.names[column], free_factor ? weight[0] : 0, Eigen::VectorXd::Zero(k)};
-    mixed[column + 1] = true;
-    mixed[0] = mixed[0] || (free_factor && std::fabs(weight[0]) > kAliasTolerance);
-    for (std::size_t j = 0; j < aliasing.kept.size(); ++j) {
-      const double w = weight[constants + static_cast<Eigen::Index>(j)];
-      if (std::fabs(w) <= kAliasTolerance) continue;
-      alias.weights[aliasing.kept[j]] = w;
-      mixed[aliasing.kept[j] + 1] = true;
-    }
-    fit.aliases.push_back(alias);
-  }
-  for (Eigen::Index j = 0; j <= k; ++j) {
-    if (mixed[j]) {
-      fit.undetermined.push_back(fit.names[j]);
-      continue;
-    }
-    Coefficient c = estimate(fit, fit.names[j], Eigen::VectorXd::Unit(k + 1, j));
-    c.fixed = problem.fixed.count(fit.names[j]) > 0;
-    fit.coefficients.push_back(c);
-  }
-  add_combinations(problem, fit);
-
-  // A row fitted without itself; q = v - step.vj is what is left of its weight v.
-  const auto without = [&](double log_f, const Eigen::VectorXd& x, const Eigen::VectorXd& step, double q, double v,
-                           double vr) {
-    // A row that alone determines a coefficient is out of reach of the equation fitted without it.
-    return q > 1e-12 * v ? std::exp(log_f - x.dot(step) * (vr / q)) : std::numeric_limits<double>::infinity();
-  };
-  Sums sums;
+  set_parameters(at, solved, fit);
+  set_coefficients(problem, at, fit);
   fit.fitted.resize(n);
   fit.leave_one_out.resize(n);
-  if (problem.all_rows) {
-    const auto of_row = [&](const Eigen::VectorXd& x, double row_offset, double observed, double u) {
-      const double log_f = row_offset + x.dot(solution.parameters);
-      const WhitenedRow row = whitened(problem.objective, log_f, observed, u);
-      const Eigen::VectorXd step = solution.covariance * x * row.factor;
-      return std::pair(std::exp(log_f), without(log_f, x, step, 1 - row.factor * x.dot(step), 1, row.residual));
-    };
-    all.for_each([&](const Eigen::VectorXd&, const Eigen::VectorXd& x, double row_offset, double observed, double u) {
-      const auto [fitted, left_out] = of_row(x, row_offset, observed, u);
-      sums.add(observed, fitted, left_out);
-    });
-    for (Eigen::Index i = 0; i < n; ++i) {
-      const double alike = log ? y[i] : 1;
-      const double u = weighted ? std::sqrt(problem.covariance.coeff(static_cast<int>(i), static_cast<int>(i))) : alike;
-      std::tie(fit.fitted[i], fit.leave_one_out[i]) = of_row(design.row(i), offset[i], y[i], u);
-    }
-  } else {
-    const Eigen::MatrixXd vj = weights.precision_times(solution.jacobian);  // V^-1 J
-    const Eigen::VectorXd vr = weights.precision_times(solution.residuals);
-    const Eigen::VectorXd v = weights.precision_diagonal();
-    for (Eigen::Index i = 0; i < n; ++i) {
-      const double log_f = offset[i] + design.row(i).dot(solution.parameters);
-      fit.fitted[i] = std::exp(log_f);
-      // At the minimum J' V^-1 r = 0, so Q r = V^-1 r.
-      const Eigen::VectorXd step = solution.covariance * vj.row(i).transpose();
-      fit.leave_one_out[i] = without(log_f, design.row(i), step, v[i] - vj.row(i).dot(step), v[i], vr[i]);
-      sums.add(y[i], fit.fitted[i], fit.leave_one_out[i]);
-    }
-  }
-
-  const auto dof = static_cast<double>(fit.degrees_of_freedom);
-  fit.r2 = sums.total > 0 ? 1 - sums.squares / sums.total : 0;
-  fit.adjusted_r2 = sums.total > 0 ? 1 - (sums.squares / dof) / (sums.total / (sums.n - 1)) : 0;
-  fit.rmse = std::sqrt(sums.squares / sums.n);
-  fit.leave_one_out_rmse = std::sqrt(sums.loo_squares / sums.n);
-  fit.relative_scatter = std::sqrt(sums.scatter / dof);
-  fit.errors = sums.errors.errors();
-  fit.leave_one_out_errors = sums.leave_one_out.errors();
+  set_statistics(problem.all_rows ? judge_rows(problem, solved, all, fit) : judge_rows(problem, solved, fit), fit);
   return fit;
 }
 
