@@ -8,7 +8,8 @@
     ```
 
 Rows whose column matches every `where` (a regular expression for the whole cell; several are divided by `;`) are put
-together where their cells of `by` are the same, in the order of their first row; without `by` each row stands alone. A
+together where their cells of `by` are the same, in the order of their first row or of the numbers of a column `order`; without
+`by` each row stands alone. A
 column is shown as `LABEL = [mean|sd|u|min|max|n] [FACTOR] COLUMN [FORMAT]`: the mean of the group unless told otherwise,
 u the standard deviation over the root of the number of rows; a column of words as it is. A cell may hold two of them,
 WHAT ± WHAT. The path starts at the repository's root. Of a JSON file the list named behind its path is taken, `a.b` for the
@@ -175,6 +176,7 @@ class Results(Directive):
     optional_arguments = 1
     option_spec = {
         "across": directives.unchanged,
+        "order": directives.unchanged,
         "where": directives.unchanged,
         "by": directives.unchanged,
         "show": directives.unchanged_required,
@@ -187,6 +189,8 @@ class Results(Directive):
             rows = matching(rows_of(path, *self.arguments[1:]), self.options.get("where", ""))
             if not rows:
                 raise self.error(f"{path.name}: no row is left under `where`")
+            if "order" in self.options:
+                rows.sort(key=lambda row: float(row[self.options["order"]]))
             columns = [part.split("=", 1) for part in self.options["show"].split(";")]
             by = self.options.get("by", "").split()
             spread_out, across = across_columns(self.options.get("across"), rows)

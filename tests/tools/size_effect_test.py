@@ -3,9 +3,12 @@
 import math
 import pathlib
 import subprocess
+import sys
 import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT))
+from tools.study import size_effect  # noqa: E402
 
 
 def effect(table, *words):
@@ -13,6 +16,9 @@ def effect(table, *words):
         [ROOT / "scripts/study", "size-effect", table, "--column", "angle_deg", *words], capture_output=True, text=True
     )
 
+
+for column, words in (("power_W", "power [W]"), ("angle_deg", "angle [deg]"), ("plane_friction_coefficient", None)):
+    assert size_effect.label(column) == (words or "plane friction coefficient"), column
 
 with tempfile.TemporaryDirectory(prefix="vielto-size-") as name:
     table = pathlib.Path(name) / "runs.csv"

@@ -20,6 +20,8 @@ from tools.errors import BadInput
 
 # in every other -var the runs must agree; a fixed ratio of clearance to diameter is a series too, and fewer turns are no other run
 OWN = {"run", "seed", "grainDiameter", "clearance", "turns"}
+# what stands behind the last _ of a column that has a unit
+UNITS = ("W", "Nm", "Pa", "deg", "m", "s", "J")
 
 
 def add_options(parser):
@@ -94,6 +96,12 @@ def variables():
     }
 
 
+def label(column):
+    """`power_W` as an axis has it: power [W]. A column without a unit behind it stays as it is."""
+    name, _, unit = column.rpartition("_")
+    return f"{name.replace('_', ' ')} [{unit}]" if name and unit in UNITS else column.replace("_", " ")
+
+
 def draw(path, points, line, covariance, real, column):
     plt = pictures.pyplot()
     a, b = line
@@ -111,7 +119,7 @@ def draw(path, points, line, covariance, real, column):
     axis.axvline(1000 * real, color="black", linewidth=0.8, linestyle=":", label="real size")
     axis.set_xlim(0, 1050 * largest)
     axis.set_xlabel("grain diameter [mm]")
-    axis.set_ylabel(column)
+    axis.set_ylabel(label(column))
     axis.grid(alpha=0.4)
     axis.legend()
     figure.tight_layout()
