@@ -21,7 +21,7 @@
 #include "report/equation_pages.h"
 #include "report/file_pages.h"
 #include "report/run_pages.h"
-#include "rigs/mixer/mixer_picture.h"
+#include "rigs/torque_picture.h"
 
 namespace vielto {
 namespace {

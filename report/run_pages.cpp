@@ -13,8 +13,8 @@
 #include "core/mixing_numbers.h"
 #include "core/steady_part.h"
 #include "report/data_file.h"
-#include "rigs/mixer/mixing_power.h"
-#include "rigs/mixer/torque_record.h"
+#include "rigs/mixing_power.h"
+#include "rigs/torque_record.h"
 
 namespace vielto {
 namespace {

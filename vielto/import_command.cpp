@@ -22,8 +22,8 @@
 #include "import/sampled_torque.h"
 #include "import/sphere_file.h"
 #include "rigs/drum/bed_shape.h"
-#include "rigs/mixer/mixing_power.h"
-#include "rigs/mixer/whole_shaft.h"
+#include "rigs/mixing_power.h"
+#include "rigs/whole_shaft.h"
 
 namespace vielto {
 namespace {

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "core/bad_input.h"
-#include "rigs/mixer/torque_record.h"
+#include "rigs/torque_record.h"
 
 namespace vielto {
 namespace {

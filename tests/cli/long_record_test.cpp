@@ -10,8 +10,8 @@
 #include <nlohmann/json.hpp>
 
 #include "child_memory.h"
-#include "rigs/mixer/mixing_power.h"
-#include "rigs/mixer/torque_record.h"
+#include "rigs/mixing_power.h"
+#include "rigs/torque_record.h"
 #include "tests/rigs/synthetic_record.h"
 
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Reading torque.csv: phases and turns against closed forms, what is refused and where, and how much memory it takes.
-#include "rigs/mixer/torque_record.h"
+#include "rigs/torque_record.h"
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>

@@ -2,7 +2,7 @@
 // The whole shaft from a slice, against sums worked by hand. With one paddle feeling a + b cos(theta), 22 paddles 90
 // degrees apart stand 6, 6, 5 and 5 at 0, 90, 180 and 270 degrees, so that
 //   sum_i cos(phi + i 90) = cos(phi) - sin(phi) = sqrt(2) cos(phi + 45 degrees).
-#include "rigs/mixer/whole_shaft.h"
+#include "rigs/whole_shaft.h"
 
 #include <gtest/gtest.h>
 

@@ -5,12 +5,12 @@
 #include <optional>
 
 #include "rigs/mixer/mixer_geometry.h"
-#include "rigs/mixer/mixer_picture.h"
-#include "rigs/mixer/mixing_power.h"
-#include "rigs/mixer/mixing_power_output.h"
-#include "rigs/mixer/torque_record.h"
+#include "rigs/mixing_power.h"
+#include "rigs/mixing_power_output.h"
 #include "rigs/rig_code.h"
 #include "rigs/rig_picture.h"
+#include "rigs/torque_picture.h"
+#include "rigs/torque_record.h"
 
 namespace vielto {
 namespace {

@@ -14,7 +14,7 @@
 
 #include <vector>
 
-#include "rigs/mixer/torque_record.h"
+#include "rigs/torque_record.h"
 
 namespace vielto {
 

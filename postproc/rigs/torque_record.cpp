@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "rigs/mixer/torque_record.h"
+#include "rigs/torque_record.h"
 
 #include <fmt/format.h>
 

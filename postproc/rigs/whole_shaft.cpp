@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "rigs/mixer/whole_shaft.h"
+#include "rigs/whole_shaft.h"
 
 #include <cmath>
 #include <numeric>

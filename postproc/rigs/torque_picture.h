@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "rigs/mixer/mixing_power.h"
+#include "rigs/mixing_power.h"
 #include "rigs/rig_picture.h"
 
 namespace vielto {

@@ -27,8 +27,8 @@
 
 #include "core/mean_uncertainty.h"
 #include "core/quality_limits.h"
-#include "rigs/mixer/torque_record.h"
-#include "rigs/mixer/whole_shaft.h"
+#include "rigs/torque_record.h"
+#include "rigs/whole_shaft.h"
 
 namespace vielto {
 

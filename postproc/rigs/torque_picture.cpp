@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "rigs/mixer/mixer_picture.h"
+#include "rigs/torque_picture.h"
 
 #include <fmt/format.h>
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/observation_table.h"
-#include "rigs/mixer/mixing_power.h"
+#include "rigs/mixing_power.h"
 
 namespace vielto {
 

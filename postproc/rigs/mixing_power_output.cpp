@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "rigs/mixer/mixing_power_output.h"
+#include "rigs/mixing_power_output.h"
 
 #include <fmt/format.h>
 
