@@ -96,7 +96,7 @@ std::string rig_picture(const fs::path& run, const fs::path& out, const std::str
   const fs::path drawn = run / "post/grains.png";
   if (display && *display) {
     std::optional<TurningRotor> rotor;
-    if (is_mixer_run(run.string())) rotor = turning_rotor(read_torque_record((run / "torque.csv").string()));
+    if (is_power_run(run.string())) rotor = turning_rotor(read_torque_record((run / "torque.csv").string()));
     if (draw_rig(run.string(), rotor ? &*rotor : nullptr, made.string())) return made.string();
     if (!fs::exists(drawn)) lines.push_back(fmt::format("no picture of {}: it holds no mesh/*.stl", run.string()));
   } else if (!fs::exists(drawn)) {
@@ -179,11 +179,11 @@ struct Work {
 };
 
 void Work::add_runs() {
-  if (is_mixer_run(folder.string())) {
+  if (is_power_run(folder.string())) {
     runs.emplace_back("", folder);
   } else {
     for (const fs::path& inner : sorted(folder))
-      if (fs::is_directory(inner) && inner.extension() != ".partial" && is_mixer_run(inner.string()))
+      if (fs::is_directory(inner) && inner.extension() != ".partial" && is_power_run(inner.string()))
         runs.emplace_back(inner.filename().string(), inner);
   }
   // First those with a power.

@@ -33,7 +33,7 @@ std::string titled(const std::string& name, const std::string& what) {
 
 Plot torque_plot(const TorqueRecord& record, const std::optional<json>& power) {
   const TorqueRecordHeader& h = record.header;
-  const bool idling = h.fill == 0;
+  const bool idling = h.idling();
   std::vector<double> torque = idling ? record.idle : record.rotor();
   if (!idling)
     for (double& value : torque) value *= h.whole_drum();
@@ -87,13 +87,16 @@ Plot phase_plot(const std::string& path) {
       file.values[static_cast<std::size_t>(u)].empty())
     throw BadInput(path, 1, "has no columns phase_deg and rotor_u_Nm of numbers", "run `vielto post` on the run again");
   int colour = 0;
-  for (const char* part : {"rotor", "paddles", "stems", "shaft"}) {
-    const int y = file.find(fmt::format("{}_Nm", part));
+  std::vector<std::string> parts = {"rotor"};  // then what turns, which stands before it in the file
+  for (std::size_t k = 1; k < file.columns.size() && file.columns[k] != "rotor_Nm"; ++k)
+    if (file.columns[k] != "paddle_Nm") parts.push_back(file.columns[k].substr(0, file.columns[k].rfind("_Nm")));
+  for (const std::string& part : parts) {
+    const int y = file.find(part + "_Nm");
     if (y < 0 || file.values[static_cast<std::size_t>(y)].empty()) continue;
     Series series{part, Look::line, colour++, {}, {}, {}};
     for (std::size_t i = 0; i < file.values[static_cast<std::size_t>(x)].size(); ++i)
       series.xy.push_back({file.values[static_cast<std::size_t>(x)][i], file.values[static_cast<std::size_t>(y)][i]});
-    if (std::string(part) == "rotor") series.u = file.values[static_cast<std::size_t>(u)];
+    if (part == "rotor") series.u = file.values[static_cast<std::size_t>(u)];
     plot.series.push_back(series);
   }
   return plot;
@@ -146,28 +149,33 @@ Table limit_table(const json& p) {
 }
 
 void add_alone(const json& p, Page& page) {
-  const double power = p.at("power_W"), u95 = p.at("power_u95_W"), gap = p.at("relative_gap");
+  const double power = p.at("power_W"), u95 = p.at("power_u95_W");
   const bool ok = p.at("quality").at("ok"), provisional = p.at("provisional"), in_range = p.at("thesis_in_range");
+  const bool thesis = p.at("thesis_power_W").is_number();
   std::string material = p.at("material");
   std::replace(material.begin(), material.end(), '_', ' ');
+  if (material.empty()) material = "the grain";
   page.figures.push_back({"Mixing power", fmt::format("{:.1f} ± {:.1f} W", power, u95), "95 % interval of the mean"});
-  page.figures.push_back({"Published equation", fmt::format("{:.1f} W", p.at("thesis_power_W").get<double>()),
-                          fmt::format("the run is {:+.1f} % from it", 100 * gap)});
+  if (thesis)
+    page.figures.push_back({"Published equation", fmt::format("{:.1f} W", p.at("thesis_power_W").get<double>()),
+                            fmt::format("the run is {:+.1f} % from it", 100 * p.at("relative_gap").get<double>())});
   page.figures.push_back({"Cohesive power number N_PC", number(p.at("N_PC")),
                           fmt::format("N_C {}, Fr_M {}", number(p.at("N_C")), number(p.at("Fr_M")))});
   page.figures.push_back({"Limits of the run",
                           ok ? "all met" : fmt::format("{} violated", p["quality"]["warnings"].size()), "listed below",
                           !ok});
   page.summary.push_back({fmt::format(
-      "To stir {} at {:g} 1/s, the drum filled to {:.3g} %, takes {:.1f} W (95 % interval {:.1f} to {:.1f} W), "
+      "To stir {} at {:g} 1/s{} takes {:.1f} W (95 % interval {:.1f} to {:.1f} W), "
       "{:.1f} kJ for each minute of mixing. The assumed bulk density adds a common scale of ± {:g} %. Bearings and air "
       "are not in it.",
-      material, p.at("speed").get<double>(), 100 * p.at("fill").get<double>(), power, power - u95, power + u95,
-      0.06 * power, 100 * p.at("scale_uncertainty").get<double>())});
-  page.summary.push_back({fmt::format(
-      "The published equation gives {:.1f} W at this point{}; it is itself up to {:.1f} % off its measurements.",
-      p["thesis_power_W"].get<double>(), in_range ? "" : ", outside the range it was fitted in",
-      100 * ThesisEquation::max_relative_error)});
+      material, p.at("speed").get<double>(),
+      p.at("fill").is_number() ? fmt::format(", the drum filled to {:.3g} %,", 100 * p.at("fill").get<double>()) : "",
+      power, power - u95, power + u95, 0.06 * power, 100 * p.at("scale_uncertainty").get<double>())});
+  if (thesis)
+    page.summary.push_back({fmt::format(
+        "The published equation gives {:.1f} W at this point{}; it is itself up to {:.1f} % off its measurements.",
+        p["thesis_power_W"].get<double>(), in_range ? "" : ", outside the range it was fitted in",
+        100 * ThesisEquation::max_relative_error)});
   if (provisional)
     page.summary.push_back({"Provisional: the material card of " + material +
                                 " is not calibrated yet. Do not decide anything by these numbers.",
@@ -176,11 +184,12 @@ void add_alone(const json& p, Page& page) {
 
 }  // namespace
 
-bool is_mixer_run(const std::string& folder) {
+bool is_power_run(const std::string& folder) {
   std::ifstream in(fs::path(folder) / "torque.csv");
   bool found = static_cast<bool>(in), other = false;
   for (std::string line; std::getline(in, line) && line.rfind('#', 0) == 0;)
-    other = other || (line.rfind("# rig=", 0) == 0 && line.rfind("# rig=mixer", 0) != 0);
+    other = other ||
+            (line.rfind("# rig=", 0) == 0 && line.rfind("# rig=mixer", 0) != 0 && line.rfind("# rig=machine", 0) != 0);
   return found && !other;
 }
 
@@ -192,14 +201,14 @@ std::optional<PowerPoint> add_run(RunOfReport& run, bool alone, Page& page) {
     return path.string();
   };
   const TorqueRecord record = read_torque_record(use(folder / "torque.csv"));
-  const bool idling = record.header.fill == 0;
+  const bool idling = record.header.idling();
   std::optional<json> power;
   std::optional<PowerPoint> point;
   if (fs::exists(post / "power.json")) {
     const std::string path = use(post / "power.json");
     try {
       power = json::parse(std::ifstream(path));
-      point = power_point(*power, path, run.name);
+      if (record.header.rig == "mixer") point = power_point(*power, path, run.name);
       if (alone) add_alone(*power, page);
       for (const json& warning : power->at("quality").at("warnings")) {
         const Paragraph text{titled(run.name, "Limit violated") + ": " + warning.get<std::string>(),

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What a report says of one run folder of the mixer: numbers, limits, torque over time and over the phase of the turn,
-// picture.
+// What a report says of one run folder of the mixer or of a machine of a user's own: numbers, limits, torque over time
+// and over the phase of the turn, picture.
 #pragma once
 
 #include <optional>
@@ -17,11 +17,11 @@ struct RunOfReport {
   std::vector<std::string> read;  // files that were used
 };
 
-// True if `folder` holds a torque record of the mixer.
-bool is_mixer_run(const std::string& folder);
+// True if `folder` holds a torque record of the mixer or of a machine.
+bool is_power_run(const std::string& folder);
 
-// Adds a section; the point is empty for an idling run and for one without post/power.json (the summary says so).
-// Errors: BadInput for files that break their format.
+// Adds a section; the point is empty for a machine, to which the published equation does not apply, for an idling run
+// and for one without post/power.json (the summary says so). Errors: BadInput for files that break their format.
 std::optional<PowerPoint> add_run(RunOfReport& run, bool alone, Page& page);
 
 }  // namespace vielto

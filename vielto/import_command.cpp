@@ -100,8 +100,8 @@ void add_torque_rows(const ImportOptions& o, std::vector<Observation>& rows) {
   }
   if (o.ripple) {
     TorqueRecord whole;  // its rotor is the one signal
-    whole.part.fill(std::vector<double>(loaded.signal.size(), 0.0));
-    whole.part[0] = loaded.signal;
+    whole.parts = {{"rotor"}};
+    whole.part = {loaded.signal};
     const ShaftCurves curves = shaft_curves(whole, loaded.turns.first, loaded.turns.count);
     rows.push_back(row_of(o, "mixer", "torque_ripple", curves.ripple, std::max(curves.ripple_u, 1e-9)));
   }

@@ -83,7 +83,7 @@ void FixViEltoRecord::row_stands(const std::string& line) {
   double rotor = 0;
   for (const Part& part : parts_) {
     std::getline(in, field, ',');
-    if (part.name != "drum") rotor += atof(field.c_str());
+    if (!part.stands) rotor += atof(field.c_str());
   }
   rule_->add(rotor);
 }
@@ -157,7 +157,7 @@ void FixViEltoRecord::pre_force(int vflag) {
 }
 
 /* Torque times 2 pi n is a power only for a mesh that turns so: corners of a turning mesh have the velocity
-   omega x (r - origin), known to round-off. What is at rest beside the rotor (a lid) is left alone. */
+   omega x (r - origin), known to round-off. */
 void FixViEltoRecord::check_motion(const Part& part, const Mesh& mesh) const {
   typedef MultiVectorContainer<double, 3, 3> Corners;
   TriMesh* const triangles = mesh.fix->triMesh();
@@ -177,14 +177,24 @@ void FixViEltoRecord::check_motion(const Part& part, const Mesh& mesh) const {
       mine[2] = std::max(mine[2], std::sqrt(dot3(off, off)));
     }
   MPI_Allreduce(mine, most, 3, MPI_DOUBLE, MPI_MAX, world);
-  const bool drum = part.name == "drum", moves = most[0] > 1e-9 * most[1] && most[0] > 0;
-  if (!moves || (!drum && most[2] <= 1e-3 * most[1])) return;
+  const bool moves = most[0] > 1e-9 * most[1] && most[0] > 0;
   char line[500];
-  if (drum)
+  if (!moves) {
+    if (part.stands || !(most[1] > 0)) return;
     snprintf(line, sizeof line,
-             "vielto: mesh %s of part drum moves (its fastest corner at %.4g m/s), but drum is the part that stands "
-             "still; give the part another name",
-             mesh.id.c_str(), most[0]);
+             "Warning: mesh %s of part %s stands still, but its torque counts as the rotor's; write 'standing %s ...' "
+             "for what does not turn\n",
+             mesh.id.c_str(), part.name.c_str(), part.name.c_str());
+    for (FILE* to : {screen, logfile})
+      if (to && comm->me == 0) fprintf(to, "%s", line);
+    return;
+  }
+  if (!part.stands && most[2] <= 1e-3 * most[1]) return;
+  if (part.stands)
+    snprintf(line, sizeof line,
+             "vielto: mesh %s of part %s moves (its fastest corner at %.4g m/s), but %s is a part that stands still; "
+             "give it as part with another name than drum",
+             mesh.id.c_str(), part.name.c_str(), most[0], part.name.c_str());
   else
     snprintf(line, sizeof line,
              "vielto: mesh %s of part %s does not turn as fix %s says, at speed %.6g 1/s about axis %g %g %g through "
@@ -220,7 +230,7 @@ void FixViEltoRecord::add_step() {
       partTorque += torque;
     }
     part.torque += partTorque;
-    if (part.name != "drum") rotor += partTorque;
+    if (!part.stands) rotor += partTorque;
     check_torque(part, partTorque);
   }
   work_ += rotor * 2 * M_PI * speed_ * update->dt;
@@ -283,7 +293,14 @@ void FixViEltoRecord::clear_interval() {
 std::string FixViEltoRecord::header_end() {
   char speed[40];
   snprintf(speed, sizeof speed, "# speed=%.10g\n", speed_);
-  std::string text = std::string(speed) + "step,time_s,turn,idle_Nm";
+  std::string text = speed;
+  for (const bool stands : {false, true}) {
+    std::string names;
+    for (const Part& part : parts_)
+      if (part.stands == stands) names += (names.empty() ? "" : " ") + part.name;
+    if (!names.empty()) text += std::string(stands ? "# standing=" : "# turning=") + names + "\n";
+  }
+  text += "step,time_s,turn,idle_Nm";
   for (const Part& part : parts_) text += "," + part.name + "_Nm";
   for (const Part& part : parts_)
     for (const char* d : {"x", "y", "z"}) text += "," + part.name + "_F" + d + "_N";
@@ -301,8 +318,8 @@ std::string FixViEltoRecord::header_end() {
 }
 
 std::string FixViEltoRecord::row() {
-  lastRotor_ = lastDrum_ = 0;
-  for (const Part& part : parts_) (part.name == "drum" ? lastDrum_ : lastRotor_) += part.torque / steps_;
+  lastRotor_ = lastStanding_ = 0;
+  for (const Part& part : parts_) (part.stands ? lastStanding_ : lastRotor_) += part.torque / steps_;
 
   const std::mt19937::result_type key[2] = {static_cast<std::mt19937::result_type>(idleSeed_),
                                             static_cast<std::mt19937::result_type>(update->ntimestep / every_)};
@@ -336,6 +353,6 @@ std::string FixViEltoRecord::progress() {
 }
 
 double FixViEltoRecord::compute_vector(int n) {
-  const double values[5] = {turn(), lastRotor_, lastDrum_, overlapMaxEver_, dtOverTc_};
+  const double values[5] = {turn(), lastRotor_, lastStanding_, overlapMaxEver_, dtOverTc_};
   return values[n];
 }

@@ -2,9 +2,10 @@
 /* Records torque and force of the parts of a rotating machine, and stops the run when its numbers cannot be trusted.
 
      fix ID all vielto/record every N file F speed n part NAME MESHFIX... [part ...] [keywords]
-       every, file, part, dtLimit, header   see fix_vielto_rows.h; `drum` as NAME is the static part
+       every, file, part, standing, dtLimit, header   see record_base.h
        speed n               1/s; the rotation starts when this fix is made. A mesh of a part that moves otherwise
-                             than at n about `axis` stops the run, and so does a drum that moves.
+                             than at n about `axis` stops the run, and so does a standing one that moves. One that
+                             is no standing part and does not move is named in a warning.
        axis x y z            axis of rotation through `origin`, default 1 0 0
        origin x y z          default 0 0 0
        each NAME             one torque column more for each mesh of that part (NAME without its s, numbered)
@@ -17,10 +18,11 @@
    is known to the relative standard uncertainty U (postproc/core/stopping_rule.h); a turn has ROWS rows. Says at the
    end of a run how well it is known, or why it cannot be.
 
+   Lines `# turning=` and `# standing=` of the file name the parts of both kinds.
    Torque columns: torque that the part exerts on the grains about the axis in the direction of rotation (positive: the
    drive supplies); force columns: force that the part exerts on the grains. Includes rolling and twisting couples.
-   Global vector: 1 turn, 2 rotor torque of the last row, 3 drum torque of it, 4 greatest overlap so far, 5 dt over the
-   shortest half period. */
+   Global vector: 1 turn, 2 rotor torque of the last row, 3 torque of the standing parts, 4 greatest overlap so far, 5
+   dt over the shortest half period. */
 #ifdef FIX_CLASS
 FixStyle(vielto / record, FixViEltoRecord)
 #else
@@ -80,7 +82,7 @@ class FixViEltoRecord : public FixViEltoRows {
 
   double gravity_ = 0;  // sum of samples, N m
   double work_ = 0;     // of the rotor on the grains since the start, J
-  double lastRotor_ = 0, lastDrum_ = 0;
+  double lastRotor_ = 0, lastStanding_ = 0;
   bool motionChecked_ = false;
 
   int rowsOfTurn_ = 0;                          // 0: the run has its length

@@ -66,7 +66,8 @@ void FixViEltoRows::parse(int narg, char** arg, Keywords own) {
   keywords["every"] = [&](int i) { return every_ = static_cast<int>(number(arg, i + 1)), 1; };
   keywords["file"] = [&](int i) { return path_ = arg[i + 1], 1; };
   keywords["dtLimit"] = [&](int i) { return dtLimit_ = number(arg, i + 1), 1; };
-  keywords["part"] = [&](int i) { return read_part(i, narg, arg); };
+  keywords["part"] = [&](int i) { return read_part(i, narg, arg, false); };
+  keywords["standing"] = [&](int i) { return read_part(i, narg, arg, true); };
   keywords["header"] = [&](int i) {
     if (i + 2 >= narg) error->fix_error(FLERR, this, "header needs a key and a value");
     std::string value = arg[i + 2];
@@ -87,9 +88,10 @@ void FixViEltoRows::parse(int narg, char** arg, Keywords own) {
   if (parts_.empty()) error->fix_error(FLERR, this, "at least one part is required");
 }
 
-int FixViEltoRows::read_part(int i, int narg, char** arg) {
+int FixViEltoRows::read_part(int i, int narg, char** arg, bool stands) {
   Part part;
   part.name = arg[i + 1];
+  part.stands = stands || part.name == "drum";
   for (int k = i + 2; k < narg && modify->find_fix(arg[k]) >= 0; k++) {
     Mesh mesh;
     mesh.id = arg[k];

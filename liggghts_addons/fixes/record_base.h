@@ -6,6 +6,7 @@
      every N               rows are means over N steps
      file F
      part NAME IDs...      fixes mesh/surface/stress that make up a part
+     standing NAME IDs...  the same for a part that stands still; one that is called drum does in any case
      dtLimit F             refuse a time step over F times the shortest half period of a contact; default 0.05
      header KEY VALUE...   one `# KEY=VALUE` line more at the top of the file; repeatable; VALUE ends at the next
    keyword
@@ -58,6 +59,7 @@ class FixViEltoRows : public Fix {
   struct Part {
     std::string name;
     bool each = false;
+    bool stands = false;
     std::vector<Mesh> meshes;
     double torque = 0;
     double force[3] = {0, 0, 0};  // on the grains, sum over the steps of the interval, N
@@ -103,7 +105,7 @@ class FixViEltoRows : public Fix {
   vielto::Tally& tally_;
 
  private:
-  int read_part(int i, int narg, char** arg);
+  int read_part(int i, int narg, char** arg, bool stands);
   void open_file();
   void cut_file();
   void take_up_forces();

@@ -79,7 +79,7 @@ RunQuality run_quality(const TorqueRecord& r, const AveragedTurns& turns, const 
   const std::string lone = lone_interval(r, rotor, turns);
   warn(!lone.empty(), lone);
   if (!r.gravity.empty()) {
-    q.torque_balance = mean_over(sum(sum(rotor, 1, r.part[3]), 1, r.gravity), turns);
+    q.torque_balance = mean_over(sum(sum(rotor, 1, r.standing()), 1, r.gravity), turns);
     q.torque_balance_relative = q.torque_balance->mean / mean_over(rotor, turns).mean;
     warn(std::fabs(q.torque_balance->mean) > 3 * q.torque_balance->u,
          fmt::format(
@@ -106,6 +106,22 @@ RunQuality run_quality(const TorqueRecord& r, const AveragedTurns& turns, const 
     q.notes.push_back(
         fmt::format("{:.3g} rows a turn for {} phases: the ripple is smoothed", r.intervals_per_turn, kPhases));
   return q;
+}
+
+void add_numbers(const TorqueRecordHeader& h, MixingPower& result) {
+  const double power = result.power.mean;
+  if (!h.power_lever) return;
+  const double lever = *h.power_lever;
+  result.fr_m = mixing_froude_number(lever, h.speed);
+  if (h.bulk_density) result.n_p = power_number(power, lever, h.speed, *h.bulk_density);
+  if (h.bulk_cohesion) result.n_pc = cohesive_power_number(power, lever, h.speed, *h.bulk_cohesion);
+  if (!h.bulk_density || !h.bulk_cohesion) return;
+  result.n_c = cohesion_number(lever, h.speed, *h.bulk_density, *h.bulk_cohesion);
+  if (h.rig != "mixer") return;
+  result.thesis_power = thesis_power(*h.fill, lever, h.speed, *h.bulk_density, *h.bulk_cohesion);
+  result.in_thesis_range = *h.fill >= ThesisEquation::low_fill && *h.fill <= ThesisEquation::high_fill &&
+                           h.speed >= ThesisEquation::low_speed && h.speed <= ThesisEquation::high_speed;
+  result.relative_gap = power / *result.thesis_power - 1;
 }
 
 }  // namespace
@@ -151,7 +167,7 @@ AveragedTurns steady_turns(const std::string& path, int first_turn, const std::v
 
 MixingPower mixing_power(const TorqueRecord& loaded, const TorqueRecord* idle, int turns) {
   const TorqueRecordHeader& h = loaded.header;
-  if (h.fill == 0)
+  if (h.idling())
     throw BadInput(loaded.path, 0, "is an idling record (fill 0)", "name a loaded record, and give this one to --idle");
   MixingPower result;
   result.header = h;
@@ -171,12 +187,16 @@ MixingPower mixing_power(const TorqueRecord& loaded, const TorqueRecord* idle, i
                    "check the direction of rotation");
   const double power_of_torque = shaft_power(1, h.speed);
   result.power = scaled(result.torque, power_of_torque);
-  for (std::size_t p = 0; p < kParts.size(); ++p) result.parts[p] = scaled(mean_over(loaded.part[p], averaged), scale);
+  result.part_names = loaded.parts;
+  for (const std::vector<double>& part : loaded.part) result.parts.push_back(scaled(mean_over(part, averaged), scale));
 
   if (idle) {
-    if (idle->header.fill != 0)
-      throw BadInput(idle->path, 0, fmt::format("is not an idling record (fill {})", idle->header.fill),
-                     "give --idle the record of the empty machine");
+    if (!idle->header.idling())
+      throw BadInput(
+          idle->path, 0,
+          fmt::format("is not an idling record ({})", idle->header.fill ? fmt::format("fill {}", *idle->header.fill)
+                                                                        : fmt::format("{} kg", idle->header.mass)),
+          "give --idle the record of the empty machine");
     if (std::fabs(idle->header.speed / h.speed - 1) > kMostSpeedDifference)
       throw BadInput(idle->path, 0,
                      fmt::format("idles at {} 1/s, the loaded record ran at {} 1/s", idle->header.speed, h.speed),
@@ -191,15 +211,7 @@ MixingPower mixing_power(const TorqueRecord& loaded, const TorqueRecord* idle, i
     result.idle = scaled(mean_over(idle->idle, idling), power_of_torque);
   }
 
-  const double power = result.power.mean;
-  result.n_p = power_number(power, h.power_lever, h.speed, h.bulk_density);
-  result.n_pc = cohesive_power_number(power, h.power_lever, h.speed, h.bulk_cohesion);
-  result.n_c = cohesion_number(h.power_lever, h.speed, h.bulk_density, h.bulk_cohesion);
-  result.fr_m = mixing_froude_number(h.power_lever, h.speed);
-  result.thesis_power = thesis_power(h.fill, h.power_lever, h.speed, h.bulk_density, h.bulk_cohesion);
-  result.in_thesis_range = h.fill >= ThesisEquation::low_fill && h.fill <= ThesisEquation::high_fill &&
-                           h.speed >= ThesisEquation::low_speed && h.speed <= ThesisEquation::high_speed;
-  result.relative_gap = power / result.thesis_power - 1;
+  add_numbers(h, result);
   if (!loaded.energy.empty()) {
     // As parts of the work: the accounts are taken where rows end, which is not quite where turns meet.
     const EnergyAccounts &begin = loaded.energy[averaged.first], &end = loaded.energy[averaged.first + averaged.count];

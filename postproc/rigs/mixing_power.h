@@ -64,15 +64,18 @@ struct MixingPower {
   int turns_total = 0;
   int turn_first = 0;  // turns since the start of the rotation when the average begins
   AveragedTurns averaged;
-  MeanUncertainty torque;                                    // whole drum, N m
-  MeanUncertainty power;                                     // W
-  std::optional<MeanUncertainty> loaded, idle;               // W
-  std::array<MeanUncertainty, kParts.size()> parts;          // torque, whole drum, N m
+  MeanUncertainty torque;                       // whole drum, N m
+  MeanUncertainty power;                        // W
+  std::optional<MeanUncertainty> loaded, idle;  // W
+  std::vector<RecordedPart> part_names;
+  std::vector<MeanUncertainty> parts;                        // torque of each, whole drum, N m
   std::optional<std::array<double, kLosses.size()>> losses;  // dissipated power of the whole drum, W; if recorded
-  double n_p = 0, n_pc = 0, n_c = 0, fr_m = 0;
-  double thesis_power = 0;  // W
+  // Each if the record states what it needs: lever; bulk density; bulk cohesion.
+  std::optional<double> n_p, n_pc, n_c, fr_m;
+  // Of the mixer alone.
+  std::optional<double> thesis_power;  // W
   bool in_thesis_range = false;
-  double relative_gap = 0;  // power over thesis_power, less 1
+  std::optional<double> relative_gap;  // power over thesis_power, less 1
   ShaftCurves curves;
   RunQuality quality;
 };

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 
 #include "core/csv.h"
 
@@ -19,6 +20,8 @@ Json or_null(const std::optional<MeanUncertainty>& m, double MeanUncertainty::*m
   return m ? Json((*m).*member) : Json(nullptr);
 }
 
+Json or_null(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
+
 std::string line(const std::string& name, double value, const std::string& u, const std::string& unit) {
   return fmt::format("  {:<34}{:>12.5g}{:>12}  {}\n", name, value, u, unit);
 }
@@ -32,8 +35,8 @@ std::string line(const std::string& name, const MeanUncertainty& m, const std::s
 Json power_json(const MixingPower& p) {
   const TorqueRecordHeader& h = p.header;
   Json parts;
-  for (std::size_t i = 0; i < kParts.size(); ++i)
-    parts[kParts[i]] = {{"torque_Nm", p.parts[i].mean}, {"torque_u_Nm", p.parts[i].u}};
+  for (std::size_t i = 0; i < p.parts.size(); ++i)
+    parts[p.part_names[i].name] = {{"torque_Nm", p.parts[i].mean}, {"torque_u_Nm", p.parts[i].u}};
   Json losses;
   if (p.losses)
     for (std::size_t i = 0; i < kLosses.size(); ++i) losses[kLosses[i]] = {{"power_W", (*p.losses)[i]}};
@@ -59,7 +62,7 @@ Json power_json(const MixingPower& p) {
       {"material", h.material},
       {"provisional", h.provisional},
       {"speed", h.speed},
-      {"fill", h.fill},
+      {"fill", or_null(h.fill)},
       {"slice", h.slice},
       {"paddles", h.paddles},
       {"seed", h.seed},
@@ -85,14 +88,14 @@ Json power_json(const MixingPower& p) {
       {"scale_uncertainty", kScaleUncertainty},
       {"scale_uncertainty_of",
        "power, relative: the assumed bulk density, common to every run of the material, not in u"},
-      {"N_P", p.n_p},
-      {"N_PC", p.n_pc},
-      {"N_C", p.n_c},
-      {"Fr_M", p.fr_m},
-      {"thesis_power_W", p.thesis_power},
+      {"N_P", or_null(p.n_p)},
+      {"N_PC", or_null(p.n_pc)},
+      {"N_C", or_null(p.n_c)},
+      {"Fr_M", or_null(p.fr_m)},
+      {"thesis_power_W", or_null(p.thesis_power)},
       {"thesis_in_range", p.in_thesis_range},
-      {"relative_gap", p.relative_gap},
-      {"relative_gap_u", p.power.u / p.thesis_power},
+      {"relative_gap", or_null(p.relative_gap)},
+      {"relative_gap_u", p.thesis_power ? Json(p.power.u / *p.thesis_power) : Json(nullptr)},
       {"torque_ripple", p.curves.ripple},
       {"torque_ripple_u", p.curves.ripple_u},
       {"torque_ripple_noise", p.curves.ripple_noise},
@@ -107,15 +110,13 @@ std::string power_table(const MixingPower& p) {
   const RunQuality& q = p.quality;
   std::string text;
   for (const std::string& warning : q.warnings) text += fmt::format("WARNING: {}\n", warning);
-  text += fmt::format(
-      "{}{}, fill {}, {} 1/s, {}, seed {}\n", h.material, h.provisional ? " (provisional)" : "", h.fill, h.speed,
-      h.slice == 0 ? "whole drum" : fmt::format("slice of {} of {} paddles", h.slice, h.paddles), h.seed);
+  text += fmt::format("{}, seed {}\n", h.what_ran(), h.seed);
   text += fmt::format("steady turns {} to {}: {} of {} averaged, {} left out as start-up\n\n", p.turn_first + 1,
                       p.turn_first + p.averaged.count, p.averaged.count, p.turns_total, p.averaged.first);
   text += fmt::format("  {:<34}{:>12}{:>12}  {}\n", "whole drum", "value", "u (k=1)", "unit");
   text += line("mean torque on the grains", p.torque, "N m");
-  for (std::size_t i = 0; i < kParts.size(); ++i)
-    text += line(fmt::format("  of the {}", kParts[i]), p.parts[i], "N m");
+  for (std::size_t i = 0; i < p.parts.size(); ++i)
+    text += line(fmt::format("  of the {}", p.part_names[i].name), p.parts[i], "N m");
   if (p.losses)
     for (std::size_t i = 0; i < kLosses.size(); ++i)
       text += line(fmt::format("power lost, {}", kLosses[i]), (*p.losses)[i], "", "W");
@@ -125,12 +126,18 @@ std::string power_table(const MixingPower& p) {
   text += line("mixing power", p.power, "W");
   text += line("  95 % interval, half width", p.power.u95(), "", "W");
   text += line("  common scale (bulk density)", 100 * kScaleUncertainty, "", "%");
-  text += line("N_P  power number", p.n_p, "", "1");
-  text += line("N_PC cohesive power number", p.n_pc, "", "1");
-  text += line("N_C  cohesion number", p.n_c, "", "1");
-  text += line("Fr_M mixing Froude number", p.fr_m, "", "1");
-  text += line("published equation", p.thesis_power, "", p.in_thesis_range ? "W" : "W, outside its range");
-  text += line("gap to it", 100 * p.relative_gap, fmt::format("{:.2g}", 100 * p.power.u / p.thesis_power), "%");
+  const auto number = [&](const char* name, const std::optional<double>& value) {
+    if (value) text += line(name, *value, "", "1");
+  };
+  number("N_P  power number", p.n_p);
+  number("N_PC cohesive power number", p.n_pc);
+  number("N_C  cohesion number", p.n_c);
+  number("Fr_M mixing Froude number", p.fr_m);
+  if (h.rig != "mixer" && h.power_lever) text += line("  with the lever stated", *h.power_lever, "", "m");
+  if (p.thesis_power) {
+    text += line("published equation", *p.thesis_power, "", p.in_thesis_range ? "W" : "W, outside its range");
+    text += line("gap to it", 100 * *p.relative_gap, fmt::format("{:.2g}", 100 * p.power.u / *p.thesis_power), "%");
+  }
   text += fmt::format("\n  {:<34}{:>12}{:>12}\n", "quality", "value", "limit");
   const auto quality = [&](const std::string& name, double value, const std::string& limit) {
     text += fmt::format("  {:<34}{:>12.3g}{:>12}\n", name, value, limit);
@@ -156,16 +163,33 @@ std::string power_table(const MixingPower& p) {
 
 std::string phase_csv(const MixingPower& p) {
   const ShaftCurves& c = p.curves;
-  std::string text = "phase_deg,paddle_Nm,paddles_Nm,stems_Nm,shaft_Nm,rotor_Nm,rotor_u_Nm,drum_Nm\n";
-  for (std::size_t i = 0; i < kPhases; ++i)
-    text += fmt::format("{},{},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g}\n",
-                        360.0 / kPhases * (static_cast<double>(i) + 0.5),
-                        c.paddle.empty() ? "" : fmt::format("{:.9g}", c.paddle[i]), c.paddles[i], c.stems[i],
-                        c.shaft[i], c.rotor[i], c.rotor_u[i], c.drum[i]);
+  const bool paddles = p.header.rig == "mixer";
+  std::string text = paddles ? "phase_deg,paddle_Nm" : "phase_deg";
+  const auto of = [&](bool turning, const std::function<void(std::size_t)>& add) {
+    for (std::size_t part = 0; part < p.part_names.size(); ++part)
+      if (p.part_names[part].turns == turning) add(part);
+  };
+  const auto name = [&](std::size_t part) { text += fmt::format(",{}_Nm", p.part_names[part].name); };
+  of(true, name);
+  text += ",rotor_Nm,rotor_u_Nm";
+  of(false, name);
+  text += "\n";
+  for (std::size_t i = 0; i < kPhases; ++i) {
+    text += fmt::format("{}", 360.0 / kPhases * (static_cast<double>(i) + 0.5));
+    if (paddles) text += "," + (c.paddle.empty() ? "" : fmt::format("{:.9g}", c.paddle[i]));
+    const auto value = [&](std::size_t part) { text += fmt::format(",{:.9g}", c.part[part][i]); };
+    of(true, value);
+    text += fmt::format(",{:.9g},{:.9g}", c.rotor[i], c.rotor_u[i]);
+    of(false, value);
+    text += "\n";
+  }
   return text;
 }
 
-std::string default_test_name(const MixingPower& p) { return fmt::format("n{}-l{}", p.header.speed, p.header.fill); }
+std::string default_test_name(const MixingPower& p) {
+  const TorqueRecordHeader& h = p.header;
+  return h.fill ? fmt::format("n{}-l{}", h.speed, *h.fill) : fmt::format("n{}-m{}", h.speed, h.mass);
+}
 
 std::vector<Observation> power_observations(const MixingPower& p, const TestLabel& label) {
   std::vector<Observation> rows;
@@ -173,11 +197,11 @@ std::vector<Observation> power_observations(const MixingPower& p, const TestLabe
     Observation row;
     row.test = label.test;
     row.role = label.role;
-    row.apparatus = "mixer";
+    row.apparatus = p.header.rig;
     row.observable = observable;
     row.value = value;
     row.u = u;
-    row.unit = *observable_unit("mixer", observable);
+    row.unit = *observable_unit(p.header.rig, observable);
     row.speed = p.header.speed;
     row.fill = p.header.fill;
     row.moisture = label.moisture;

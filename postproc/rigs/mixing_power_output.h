@@ -18,6 +18,8 @@ namespace vielto {
 //   turns_total, turns_averaged  whole turns recorded and averaged; turn_first: turns done when the average begins
 //   drift_per_turn, drift_probability  slope of the averaged turn means over their mean, and its chance in steady noise
 //   torque_ripple_noise          what noise alone would show as ripple (whole_shaft.h)
+//   N_P ... Fr_M                 null: the record states no lever, bulk density or bulk cohesion
+//   thesis_power_W, relative_gap null: not the mixer of the thesis
 //   thesis_in_range              fill and speed lie where the published equation was fitted
 //   quality                      ok is false if a limit is violated: `warnings` says which; `notes` violate none
 nlohmann::ordered_json power_json(const MixingPower& power);
@@ -27,7 +29,7 @@ std::string power_table(const MixingPower& power);
 
 // phase_deg (middle of the phase), paddle_Nm (one paddle against its own angle; empty for the whole drum), then the
 // whole drum against the angle of the shaft: paddles_Nm, stems_Nm, shaft_Nm, rotor_Nm and its standard uncertainty,
-// drum_Nm.
+// drum_Nm. Of a machine no paddle_Nm, and its own parts, those that turn before the rotor.
 std::string phase_csv(const MixingPower& power);
 
 // Rows for power_loaded and power_idle, or power without an idling record, and for torque_ripple.

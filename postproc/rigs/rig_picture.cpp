@@ -120,11 +120,11 @@ vtkNew<vtkColorTransferFunction> speed_colours(double most) {
   return colours;
 }
 
-vtkNew<vtkActor> part_actor(const fs::path& path, double degrees, double opacity) {
+vtkNew<vtkActor> part_actor(const fs::path& path, double degrees, const std::array<double, 3>& axis, double opacity) {
   vtkNew<vtkSTLReader> reader;
   reader->SetFileName(path.c_str());
   vtkNew<vtkTransform> rotation;
-  rotation->RotateX(degrees);
+  rotation->RotateWXYZ(degrees, axis.data());
   vtkNew<vtkTransformPolyDataFilter> turn;
   turn->SetTransform(rotation);
   turn->SetInputConnection(reader->GetOutputPort());
@@ -147,22 +147,28 @@ vtkNew<vtkTextActor> caption(const std::string& text, int size, double x, double
   return actor;
 }
 
-// The parts of the rig: the drum translucent, the rest turned about the x axis
-// by `degrees`. Without an angle the parts are where the last dump of meshes
-// has them, or where they began, all of them translucent but for the rotor.
-// False if there is none.
-bool add_parts(vtkRenderer* renderer, const fs::path& run, std::optional<double> degrees, std::optional<long> step) {
+// The parts of the rig: what stands translucent, the rest turned as `rotor`
+// does after `turns`. Without a rotor the parts are where the last dump of
+// meshes has them, or where they began, all of them translucent. False if there
+// is none.
+bool add_parts(vtkRenderer* renderer, const fs::path& run, const TurningRotor* rotor, double turns,
+               std::optional<long> step) {
   constexpr double kDrum = 0.18, kAnyPart = 0.4;
-  if (const auto moved = last_dump(run / "vtk", ".stl", step); moved && !degrees) {
-    renderer->AddActor(part_actor(moved->path, 0, kAnyPart));
+  if (const auto moved = last_dump(run / "vtk", ".stl", step); moved && !rotor) {
+    renderer->AddActor(part_actor(moved->path, 0, {1, 0, 0}, kAnyPart));
     return true;
   }
   bool any = false;
   std::error_code missing;
   for (const auto& file : fs::directory_iterator(run / "mesh", missing)) {
     if (file.path().extension() != ".stl" || (is_heap(run) && file.path().stem() == "cylinder")) continue;
-    const bool drum = file.path().stem() == "drum";
-    renderer->AddActor(part_actor(file.path(), drum ? 0 : degrees.value_or(0), drum ? kDrum : degrees ? 1 : kAnyPart));
+    const TurningRotor none;
+    const TurningRotor& r = rotor ? *rotor : none;
+    const bool stands = std::find(r.standing.begin(), r.standing.end(), file.path().stem()) != r.standing.end();
+    renderer->AddActor(part_actor(file.path(), stands || !rotor ? 0 : 360 * turns, r.axis,
+                                  stands  ? kDrum
+                                  : rotor ? 1
+                                          : kAnyPart));
     any = true;
   }
   return any;
@@ -227,9 +233,7 @@ bool draw_look(const std::string& run, const TurningRotor* rotor, const std::opt
       rotor && dump ? std::max(0.0, (static_cast<double>(dump->step) - rotor->start_step) / rotor->steps_per_turn) : 0;
   vtkNew<vtkRenderer> renderer;
   renderer->SetBackground(1, 1, 1);
-  if (!add_parts(renderer, run, rotor ? std::optional(360 * turns) : std::nullopt,
-                 dump ? std::optional(dump->step) : std::nullopt))
-    return false;
+  if (!add_parts(renderer, run, rotor, turns, dump ? std::optional(dump->step) : std::nullopt)) return false;
   const char* title = "The rig";
   double shown[6];
   renderer->ComputeVisiblePropBounds(shown);

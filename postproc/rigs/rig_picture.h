@@ -2,7 +2,9 @@
 // Picture of a rig with its grains, for people.
 #pragma once
 
+#include <array>
 #include <string>
+#include <vector>
 
 namespace vielto {
 
@@ -10,12 +12,14 @@ namespace vielto {
 // is written over the picture.
 struct TurningRotor {
   double start_step = 0, steps_per_turn = 1;
-  std::string caption;  // without the turns, which are added
+  std::string caption;                           // without the turns, which are added
+  std::array<double, 3> axis = {1, 0, 0};        // through the origin
+  std::vector<std::string> standing = {"drum"};  // meshes that stand still, drawn translucent
 };
 
 // The last dump of grains in RUN/vtk (`dump custom/vtk` with v and radius),
-// coloured by speed, in the meshes of RUN/mesh: the drum translucent, every
-// other part turned about the x axis to where the rotor stood; without a rotor
+// coloured by speed, in the meshes of RUN/mesh: what stands translucent, every
+// other part turned about the axis to where the rotor stood; without a rotor
 // nothing is turned. Draws what is there of grains and meshes; false if there
 // is no mesh. Errors: BadInput for a dump without radius or velocity;
 // std::runtime_error if the file cannot be written.

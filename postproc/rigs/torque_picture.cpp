@@ -30,9 +30,8 @@ void draw_torque(const TorqueRecord& record, const MixingPower& power, const std
   const double low = std::min(0.0, *least * 1.05), high = std::max(0.0, *most * 1.3);
   const double from = power.turn_first * turn_time, to = from + power.averaged.count * turn_time;
 
-  Chart chart(fmt::format("{}{}, fill {}, {} 1/s: {:.2f} N m, mixing power {:.1f} W, standard uncertainty {:.1f} W",
-                          record.header.material, record.header.provisional ? " (provisional)" : "", record.header.fill,
-                          record.header.speed, power.torque.mean, power.power.mean, power.power.u));
+  Chart chart(fmt::format("{}: {:.2f} N m, mixing power {:.1f} W, standard uncertainty {:.1f} W",
+                          record.header.what_ran(), power.torque.mean, power.power.mean, power.power.u));
   chart.shade("averaged turns", from, to, low, high);
   const std::string of = record.header.slice == 0 ? "torque on the grains"
                                                   : fmt::format("torque on the grains, slice times {}/{}",
@@ -50,9 +49,11 @@ TurningRotor turning_rotor(const TorqueRecord& record) {
   TurningRotor rotor;
   rotor.start_step = static_cast<double>(record.start_step);
   rotor.steps_per_turn = static_cast<double>(h.steps_per_turn);
-  rotor.caption =
-      fmt::format("{}{}, fill {}, {} 1/s, {}", h.material, h.provisional ? " (provisional)" : "", h.fill, h.speed,
-                  h.slice > 0 ? fmt::format("slice of {} of {} paddles", h.slice, h.paddles) : "whole drum");
+  rotor.caption = h.what_ran();
+  rotor.axis = h.axis;
+  rotor.standing.clear();
+  for (const RecordedPart& part : record.parts)
+    if (!part.turns) rotor.standing.push_back(part.name);
   return rotor;
 }
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 #include "core/bad_input.h"
 #include "core/mixing_numbers.h"
@@ -17,15 +18,7 @@ constexpr double kMostPaddleMismatch = 0.01;  // of the mean absolute paddle tor
 // A time this close to the edge of a phase, in turns, is the edge: printed times are rounded.
 constexpr double kSliver = 1e-3 / kPhases;
 
-TorqueRecordHeader parse_header(const std::string& path, const Keys& keys) {
-  if (keys.integer("schema", 0) != 1)
-    throw BadInput(path, keys.line("schema"), "the schema is not 1",
-                   "write the record with this package's own version");
-  TorqueRecordHeader h;
-  h.speed = keys.number("speed", 0, true);
-  h.fill = keys.number("fill", 0);
-  if (h.fill > 1)
-    throw BadInput(path, keys.line("fill"), fmt::format("key 'fill' has the value {}", h.fill), "state 0 to 1");
+void parse_mixer(const std::string& path, const Keys& keys, TorqueRecordHeader& h) {
   h.slice = keys.integer("slice", 0);
   h.paddles = keys.integer("paddles", 1);
   for (const double degrees : keys.numbers("paddle_angles_deg")) h.paddle_angles.push_back(degrees * kPi / 180);
@@ -34,10 +27,7 @@ TorqueRecordHeader parse_header(const std::string& path, const Keys& keys) {
   h.seed = keys.text("seed");
   h.material = keys.text("material");
   h.provisional = keys.integer("provisional", 0) != 0;
-  h.dt = keys.number("dt", 0, true);
-  h.dt_over_tc = keys.number("dt_over_tc", 0);
   h.steps_per_turn = keys.number("steps_per_turn", 0, true);
-  h.interval_steps = keys.integer("interval_steps", 1);
   h.bulk_density = keys.number("bulk_density", 0, true);
   h.bulk_cohesion = keys.number("bulk_cohesion", 0, true);
   h.power_lever = keys.number("power_lever", 0, true);
@@ -49,6 +39,45 @@ TorqueRecordHeader parse_header(const std::string& path, const Keys& keys) {
     throw BadInput(path, keys.line("paddle_angles_deg"),
                    fmt::format("states {} angles for a slice of {} paddles", h.paddle_angles.size(), h.slice),
                    "state one angle for each paddle");
+}
+
+/* What a machine must state is what its power needs: the mass of its grains; all else tells more. */
+void parse_machine(const std::string& path, const Keys& keys, TorqueRecordHeader& h) {
+  const auto optional = [&](const char* key) {
+    return keys.has(key) ? std::optional(keys.number(key, 0, true)) : std::nullopt;
+  };
+  h.mass = keys.number("mass_kg", 0);
+  h.mass_target = keys.has("mass_target_kg") ? keys.number("mass_target_kg", 0) : h.mass;
+  h.steps_per_turn = keys.has("steps_per_turn") ? keys.number("steps_per_turn", 0, true) : 1 / (h.speed * h.dt);
+  h.bulk_density = optional("bulk_density");
+  h.bulk_cohesion = optional("bulk_cohesion");
+  h.power_lever = optional("power_lever");
+  h.seed = keys.has("seed") ? keys.text("seed") : "1";
+  h.material = keys.has("material") ? keys.text("material") : "";
+  h.provisional = keys.has("provisional") && keys.integer("provisional", 0) != 0;
+  if (!keys.has("axis_direction")) return;
+  const std::vector<double> axis = keys.numbers("axis_direction");
+  if (axis.size() != 3) throw BadInput(path, keys.line("axis_direction"), "states no direction", "state three numbers");
+  std::copy(axis.begin(), axis.end(), h.axis.begin());
+}
+
+TorqueRecordHeader parse_header(const std::string& path, const Keys& keys) {
+  if (keys.integer("schema", 0) != 1)
+    throw BadInput(path, keys.line("schema"), "the schema is not 1",
+                   "write the record with this package's own version");
+  TorqueRecordHeader h;
+  h.rig = keys.has("rig") ? keys.text("rig") : h.rig;
+  h.speed = keys.number("speed", 0, true);
+  if (h.rig == "mixer" || keys.has("fill")) h.fill = keys.number("fill", 0);
+  if (h.fill && *h.fill > 1)
+    throw BadInput(path, keys.line("fill"), fmt::format("key 'fill' has the value {}", *h.fill), "state 0 to 1");
+  h.dt = keys.number("dt", 0, true);
+  h.dt_over_tc = keys.number("dt_over_tc", 0);
+  h.interval_steps = keys.integer("interval_steps", 1);
+  if (h.rig == "mixer")
+    parse_mixer(path, keys, h);
+  else
+    parse_machine(path, keys, h);
   // 0.1 % of slack for rounded steps.
   if (std::fabs(h.steps_per_turn * h.dt * h.speed - 1) > 1e-3)
     throw BadInput(path, keys.line("steps_per_turn"),
@@ -56,7 +85,6 @@ TorqueRecordHeader parse_header(const std::string& path, const Keys& keys) {
                    "state numbers whose product is 1");
   return h;
 }
-
 // Of each two neighbouring groups of `width` values their mean, in place.
 void halve(std::vector<double>& values, std::size_t width) {
   const std::size_t pairs = values.size() / (2 * width);
@@ -176,6 +204,24 @@ class Progress {
   double rows_ = 0;
 };
 
+// Names of the keys `turning` and `standing`. Errors: BadInput for a name that is there twice.
+std::vector<RecordedPart> stated_parts(const std::string& path, const Keys& keys) {
+  std::vector<RecordedPart> parts;
+  for (const char* key : {"turning", "standing"}) {
+    if (!keys.has(key)) continue;
+    std::istringstream words(keys.text(key));
+    for (std::string name; words >> name;) {
+      for (const RecordedPart& part : parts)
+        if (part.name == name)
+          throw BadInput(path, keys.line(key), fmt::format("key '{}' names part {} again", key, name), "name it once");
+      parts.push_back({name, key == std::string("turning")});
+    }
+  }
+  if (parts.empty() || !parts.front().turns)
+    throw BadInput(path, 0, "names no part that turns", "add a line '# turning=PART PART ...'");
+  return parts;
+}
+
 // The paddles' own columns must add up to the part's.
 void check_paddles(const TorqueRecord& record) {
   if (record.paddle.empty()) return;
@@ -194,10 +240,19 @@ void check_paddles(const TorqueRecord& record) {
 
 }  // namespace
 
-std::vector<double> TorqueRecord::rotor() const {
-  std::vector<double> sum = part[0];
-  for (std::size_t p = 1; p < 3; ++p)
-    for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += part[p][i];
+std::string TorqueRecordHeader::what_ran() const {
+  std::string text = material + (provisional ? " (provisional)" : "") + (material.empty() ? "" : ", ");
+  text += fill ? fmt::format("fill {:.4g}", *fill) : fmt::format("{:.4g} kg", mass);
+  text += fmt::format(", {} 1/s", speed);
+  if (rig == "mixer") text += slice == 0 ? ", whole drum" : fmt::format(", slice of {} of {} paddles", slice, paddles);
+  return text;
+}
+
+std::vector<double> TorqueRecord::sum_of(bool turning) const {
+  std::vector<double> sum(part.front().size(), 0.0);
+  for (std::size_t p = 0; p < parts.size(); ++p)
+    if (parts[p].turns == turning)
+      for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += part[p][i];
   return sum;
 }
 
@@ -209,19 +264,20 @@ TorqueRecord read_torque_record(const std::string& path) {
   record.path = path;
   record.header = parse_header(path, file.keys());
   const TorqueRecordHeader& h = record.header;
+  if (h.rig != "mixer") record.parts = stated_parts(path, file.keys());
   Progress progress(path, h, columns);
 
   // The signals kept by phase, in this order.
   std::vector<std::size_t> kept;
-  for (const char* part : kParts) kept.push_back(columns.at(fmt::format("{}_Nm", part)));
+  for (const RecordedPart& part : record.parts) kept.push_back(columns.at(part.name + "_Nm"));
   kept.push_back(columns.at("idle_Nm"));
   kept.push_back(columns.at("overlap_mean"));
   const bool has_gravity = columns.has("gravity_Nm");
   if (has_gravity) kept.push_back(columns.at("gravity_Nm"));
   for (int k = 1; k <= h.slice; ++k) kept.push_back(columns.at(fmt::format("paddle{}_Nm", k)));
   // Not used here, but part of the format.
-  for (const char* part : kParts)
-    for (const char* axis : {"x", "y", "z"}) columns.at(fmt::format("{}_F{}_N", part, axis));
+  for (const RecordedPart& part : record.parts)
+    for (const char* axis : {"x", "y", "z"}) columns.at(fmt::format("{}_F{}_N", part.name, axis));
   columns.at("contacts");
   const std::size_t overlap_max = columns.at("overlap_max"), grains = columns.at("grains");
   const EnergyColumns energy(columns);
@@ -272,6 +328,7 @@ TorqueRecord read_torque_record(const std::string& path) {
   record.intervals_per_turn = 1 / progress.length();
   std::size_t s = 0;
   const auto take = [&](std::vector<double>& signal) { signal = std::move(bins.curve(s++)); };
+  record.part.resize(record.parts.size());
   for (auto& part : record.part) take(part);
   take(record.idle);
   take(record.overlap_mean);

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Torque record `torque.csv`, schema 1: lines `# key=value`, a header, then rows of means over equal intervals of
-// steps. `step`, `time_s` and `turn` are the end of the interval; turns count from the start of the rotation. Torque:
-// what the part exerts on the grains about the axis in the direction of rotation, N m (positive: the drive supplies).
-// Force: what the part exerts on the grains, N. overlap_mean and overlap_max: fractions of the grain diameter.
+// Torque record `torque.csv` of a rotor with parts by any name, schema 1: lines `# key=value`, a header, then rows of
+// means over equal intervals of steps. `step`, `time_s` and `turn` are the end of the interval; turns count from the
+// start of the rotation. Torque: what the part exerts on the grains about the axis in the direction of rotation, N m
+// (positive: the drive supplies). Force: what the part exerts on the grains, N. Which parts turn and which stand is
+// stated by the keys `turning` and `standing`; of the mixer, whose older records lack them, paddles, stems and shaft
+// turn and the drum stands. overlap_mean and overlap_max: fractions of the grain diameter.
 //
 // Read as a stream and kept as means over phases of the turn: 72 values a whole turn and signal. An interval that
 // reaches over several phases counts in each by its share of time. Turns that the record does not cover whole, at its
@@ -19,6 +21,7 @@
 
 #include <array>
 #include <numeric>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,12 +29,13 @@ namespace vielto {
 
 constexpr int kPhases = 72;        // of 5 degrees
 constexpr int kMostBlocks = 1024;  // even
-constexpr std::array<const char*, 4> kParts = {"paddles", "stems", "shaft", "drum"};
 constexpr std::array<const char*, 5> kLosses = {"normal", "tangential", "sliding", "rolling", "twisting"};
 
 struct TorqueRecordHeader {
-  double speed = 0;                   // 1/s
-  double fill = 0;                    // 1, drum loading factor; 0: idling record
+  std::string rig = "mixer";
+  double speed = 0;            // 1/s
+  std::optional<double> fill;  // 1, drum loading factor; 0: idling record; a machine's may state its mass only
+  // The mixer's own; a machine is whole.
   int slice = 0;                      // paddles in the periodic slice; 0: whole drum
   int paddles = 0;                    // in the whole drum
   std::vector<double> paddle_angles;  // rad, of the slice's paddles
@@ -44,14 +48,18 @@ struct TorqueRecordHeader {
   double dt_over_tc = 0;  // 1, of the stiffest mode
   double steps_per_turn = 0;
   double interval_steps = 0;
-  double bulk_density = 0;   // kg/m3
-  double bulk_cohesion = 0;  // Pa
-  double power_lever = 0;    // m
-  double drum_volume = 0;    // m3
-  double mass = 0;           // kg, of the simulated grains
-  double mass_target = 0;    // kg
-  double clearance = 0;      // m
+  // Of a machine, each only if its record states it.
+  std::optional<double> bulk_density;   // kg/m3
+  std::optional<double> bulk_cohesion;  // Pa
+  std::optional<double> power_lever;    // m
+  double drum_volume = 0;               // m3
+  double mass = 0;                      // kg, of the simulated grains
+  double mass_target = 0;               // kg
+  double clearance = 0;                 // m
+  std::array<double, 3> axis = {1, 0, 0};
 
+  bool idling() const { return fill ? *fill == 0 : mass == 0; }
+  std::string what_ran() const;  // "hulled_millet (provisional), fill 0.15, 1 1/s, whole drum"
   // What is simulated, times this, is the whole drum.
   double whole_drum() const { return slice == 0 ? 1 : static_cast<double>(paddles) / slice; }
 };
@@ -61,6 +69,11 @@ struct EnergyAccounts {
   double work = 0, kinetic = 0, elastic = 0, potential = 0;
   std::array<double, kLosses.size()> losses{};  // dissipated, in the order of kLosses
   double dissipated() const { return std::accumulate(losses.begin(), losses.end(), 0.0); }
+};
+
+struct RecordedPart {
+  std::string name;
+  bool turns = true;
 };
 
 struct TorqueRecord {
@@ -73,7 +86,8 @@ struct TorqueRecord {
   double intervals_per_turn = 0;
 
   // Signals of the simulated domain, N m, kPhases values a turn.
-  std::array<std::vector<double>, kParts.size()> part;  // in the order of kParts
+  std::vector<RecordedPart> parts = {{"paddles"}, {"stems"}, {"shaft"}, {"drum", false}};
+  std::vector<std::vector<double>> part = std::vector<std::vector<double>>(4);  // in the order of `parts`
   std::vector<double> idle;
   std::vector<double> gravity;              // torque of gravity on the grains; empty if not recorded
   std::vector<std::vector<double>> paddle;  // each paddle of a slice; empty for the whole drum
@@ -85,8 +99,12 @@ struct TorqueRecord {
 
   double first_grains = 0, last_grains = 0;  // number of grains in the first and the last row
 
-  // Sum of paddles, stems and shaft.
-  std::vector<double> rotor() const;
+  // Sum of the parts that turn; of those that stand.
+  std::vector<double> rotor() const { return sum_of(true); }
+  std::vector<double> standing() const { return sum_of(false); }
+
+ private:
+  std::vector<double> sum_of(bool turning) const;
 };
 
 TorqueRecord read_torque_record(const std::string& path);

@@ -38,7 +38,8 @@ Curve all_paddles(const TorqueRecord& record, const Curve& paddle, int first, in
 
 Curve rotor_curve(const TorqueRecord& record, int first, int count) {
   Curve rotor = all_paddles(record, single_paddle(record, first, count), first, count);
-  for (std::size_t p = 1; p < 3; ++p) add(rotor, record.header.whole_drum(), phase_mean(record.part[p], first, count));
+  for (std::size_t p = 1; p < record.parts.size(); ++p)
+    if (record.parts[p].turns) add(rotor, record.header.whole_drum(), phase_mean(record.part[p], first, count));
   return rotor;
 }
 
@@ -78,10 +79,9 @@ ShaftCurves shaft_curves(const TorqueRecord& record, int first, int count) {
   ShaftCurves curves;
   const double scale = record.header.whole_drum();
   if (record.header.slice > 0) curves.paddle = single_paddle(record, first, count);
-  curves.paddles = all_paddles(record, curves.paddle, first, count);
-  curves.stems = scaled(scale, phase_mean(record.part[1], first, count));
-  curves.shaft = scaled(scale, phase_mean(record.part[2], first, count));
-  curves.drum = scaled(scale, phase_mean(record.part[3], first, count));
+  curves.part.push_back(all_paddles(record, curves.paddle, first, count));
+  for (std::size_t p = 1; p < record.parts.size(); ++p)
+    curves.part.push_back(scaled(scale, phase_mean(record.part[p], first, count)));
   curves.rotor = rotor_curve(record, first, count);
   curves.ripple = ripple(curves.rotor);
 

@@ -5,7 +5,8 @@
 //   t(theta) = mean_j c(j, theta - a(j))        at its own angle theta = phi + a(j),
 // and the whole shaft, whose paddles stand at 0, step, 2 step, ...
 //   T(phi) = sum_{i<N} t(phi + i step) + (N/k) (stems + shaft of the slice)(phi).
-// For the whole drum T is the recorded rotor torque. Curves hold kPhases means; between them, linear in the angle.
+// For the whole drum, and for a machine, T is the recorded rotor torque. Curves hold kPhases means; between them,
+// linear in the angle.
 //
 // Ripple: standard deviation over mean of the turn-averaged T within a turn. Its standard uncertainty is the
 // jackknife's, one turn left out at a time (Efron and Tibshirani 1993, chapter 11). The noise that few turns leave in T
@@ -21,7 +22,8 @@ namespace vielto {
 struct ShaftCurves {
   std::vector<double> paddle;  // t(theta), N m; empty for the whole drum
   // Of the whole drum against phi, N m.
-  std::vector<double> paddles, stems, shaft, drum, rotor;
+  std::vector<std::vector<double>> part;  // in the order of the record's parts
+  std::vector<double> rotor;
   std::vector<double> rotor_u;      // standard uncertainty, from the spread between turns
   double ripple = 0, ripple_u = 0;  // 1
   double ripple_noise = 0;          // root mean square of rotor_u over the mean of the rotor, 1

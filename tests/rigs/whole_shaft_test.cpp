@@ -67,10 +67,10 @@ TEST(WholeShaft, PhaseShiftedSumOfTwentyTwoPaddles) {
   const auto curves = vielto::shaft_curves(slice({0, 90, 180, 270}, 90, 3, 0.2, [](int) { return 0.05; }), 0, 3);
   for (int i = 0; i < kPhases; ++i) {
     const double paddles = 22 * 0.2 + 0.05 * std::sqrt(2.0) * std::cos(middle(i) + kPi / 4);
-    EXPECT_NEAR(curves.paddles[i], paddles, 1e-12);
+    EXPECT_NEAR(curves.part[0][i], paddles, 1e-12);
     EXPECT_NEAR(curves.rotor[i], paddles + 5.5 * 0.15, 1e-12);
-    EXPECT_NEAR(curves.stems[i], 0.55, 1e-12);
-    EXPECT_NEAR(curves.drum[i], -1.1, 1e-12);
+    EXPECT_NEAR(curves.part[1][i], 0.55, 1e-12);
+    EXPECT_NEAR(curves.part[3][i], -1.1, 1e-12);
     EXPECT_NEAR(curves.rotor_u[i], 0, 1e-12);
   }
   // Standard deviation of sqrt(2) cos is 1.
@@ -100,7 +100,7 @@ TEST(WholeShaft, AnyStepBetweenPaddles) {
   const auto curves = vielto::shaft_curves(slice({0, 33}, 33, 2, 0.2, [](int) { return 0.05; }), 0, 2);
   const double factor = std::sin(11 * 33 * kDegree) / std::sin(16.5 * kDegree);
   for (int i = 0; i < kPhases; ++i)
-    EXPECT_NEAR(curves.paddles[i], 4.4 + 0.05 * factor * std::cos(middle(i) + 346.5 * kDegree), 22 * 0.05 * 0.002);
+    EXPECT_NEAR(curves.part[0][i], 4.4 + 0.05 * factor * std::cos(middle(i) + 346.5 * kDegree), 22 * 0.05 * 0.002);
 }
 
 TEST(WholeShaft, WholeDrumIsTakenAsItIs) {

@@ -1,50 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The paddle mixer: torque record -> power, numbers, phase curves, observation rows, pictures.
-#include <cstdio>
-#include <filesystem>
-#include <optional>
-
+// The paddle mixer: its meshes; its record is that of a rotor.
 #include "rigs/mixer/mixer_geometry.h"
-#include "rigs/mixing_power.h"
-#include "rigs/mixing_power_output.h"
+#include "rigs/power_post.h"
 #include "rigs/rig_code.h"
-#include "rigs/rig_picture.h"
-#include "rigs/torque_picture.h"
-#include "rigs/torque_record.h"
 
 namespace vielto {
-namespace {
 
-void draw_grains(const TorqueRecord& record, const std::string& run, const std::string& path) {
-  const TurningRotor rotor = turning_rotor(record);
-  const bool grains = has_dump(run) && std::filesystem::exists(std::filesystem::path(run) / "mesh/drum.stl");
-  if (!grains || !draw_rig(run, &rotor, path))
-    std::fprintf(stderr, "vielto: no picture of the grains: %s holds no vtk/*.vtk or no mesh/drum.stl\n",
-                 run.empty() ? "the folder" : run.c_str());
-}
-
-PostResult post_mixer(const PostInput& input) {
-  const TorqueRecord loaded = read_torque_record(input.record);
-  std::optional<TorqueRecord> idle;
-  if (!input.idle.empty()) idle = read_torque_record(input.idle);
-  const MixingPower power = mixing_power(loaded, idle ? &*idle : nullptr, input.turns);
-  PostResult result;
-  result.rows = power_observations(power, input.label_or(default_test_name(power)));
-  result.table = power_table(power);
-  result.numbers = power_json(power);
-  result.files = {{"phase.csv", phase_csv(power)}};
-  result.pictures = {
-      {"torque.png", [loaded, power](const std::string& path) { draw_torque(loaded, power, path); }},
-      {"grains.png", [loaded, run = input.run()](const std::string& path) { draw_grains(loaded, run, path); }}};
-  result.film = [rotor = turning_rotor(loaded), run = input.run()](const std::string& path) {
-    draw_film(run, &rotor, path);
-  };
-  result.warnings = power.quality.warnings;
-  return result;
-}
-
-}  // namespace
-
-RigCode mixer_rig() { return {mixer_geometry, post_mixer, true}; }
+RigCode mixer_rig() { return {mixer_geometry, post_power, true}; }
 
 }  // namespace vielto
