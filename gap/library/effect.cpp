@@ -30,10 +30,9 @@ Value chosen(const TomlTable& table, const char* key, const std::map<std::string
 VarChange read_var(const TomlTable& t) {
   t.only({"rigs", "name", "rule", "factor", "whole", "word"});
   VarChange var;
-  const toml::array* rigs = t.raw()["rigs"].as_array();
-  if (!rigs || rigs->empty()) t.refuse("rigs", "is no list", "write rigs = [\"mixer\"]");
-  for (const toml::node& rig : *rigs) {
-    const std::string name = rig.value_or<std::string>("");
+  if (t.has("rigs") && t.texts("rigs").empty())
+    t.refuse("rigs", "is empty", "write rigs = [\"mixer\"], or leave it out for every rig");
+  for (const std::string& name : t.texts("rigs")) {
     if (!find_rig(name))
       t.refuse("rigs", fmt::format("'{}' is no rig", name), fmt::format("write one of {}", rig_names()));
     var.rigs.push_back(name);
@@ -178,7 +177,7 @@ Transform read_transform(const TomlTable& t) {
 bool VarChange::acts_on(const std::string& rig) const {
   const auto named = [&](const std::string& one) { return std::find(rigs.begin(), rigs.end(), one) != rigs.end(); };
   const RigDescription* described = find_rig(rig);
-  return named(rig) || (described && named(described->effects_of));
+  return described && (rigs.empty() || named(rig) || named(described->effects_of));
 }
 
 bool VarChange::needs_base() const {

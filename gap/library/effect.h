@@ -41,7 +41,7 @@ struct VarChange {
   bool whole = false;
   std::string word;
 
-  // Also on a rig that takes the effects of one of `rigs` (cases/rigs.toml, effects_of).
+  // Without `rigs` on every one. Also on a rig whose effects_of (cases/rigs.toml) is one of them.
   bool acts_on(const std::string& rig) const;
   // The text after `-var name`, for the baseline value `base` (not used by value, word, switch).
   std::string text(double base, double strength) const;
