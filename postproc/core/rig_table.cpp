@@ -47,9 +47,22 @@ std::map<std::string, std::string> read_conditions(const TomlTable& t) {
   return vars;
 }
 
+RigPicture read_picture(const TomlTable& t) {
+  t.only({"from", "without", "close_up"});
+  RigPicture picture;
+  const std::string from = t.has("from") ? t.text("from") : "end";
+  if (from != "end" && from != "side") t.refuse("from", fmt::format("'{}' is no place", from), "write end or side");
+  picture.from_side = from == "side";
+  picture.without = t.texts("without");
+  if (t.has("close_up") && !t.raw()["close_up"].is_boolean())
+    t.refuse("close_up", "is neither true nor false", "write one of them");
+  picture.close_up = t.raw()["close_up"].value_or(false);
+  return picture;
+}
+
 RigDescription read_rig(const TomlTable& t, const std::string& name, const std::string& table) {
   t.only({"title", "script", "parameters", "wall", "includes", "record", "post", "result", "conditions", "observables",
-          "work", "reference", "effects_of"});
+          "work", "reference", "effects_of", "picture"});
   const auto or_empty = [&](const char* key) { return t.has(key) ? t.text(key) : std::string(); };
   RigDescription rig;
   rig.name = name;
@@ -67,6 +80,7 @@ RigDescription read_rig(const TomlTable& t, const std::string& name, const std::
   rig.work = or_empty("work");
   rig.effects_of = or_empty("effects_of");
   if (t.has("reference")) rig.reference = t.table("reference").texts("numbers");
+  if (t.has("picture")) rig.picture = read_picture(t.table("picture"));
   if (t.has("conditions")) rig.vars = read_conditions(t.table("conditions"));
   return rig;
 }

@@ -16,6 +16,11 @@ struct NamedObservable {
   std::string name, unit, meaning;
 };
 
+struct RigPicture {
+  bool from_side = false, close_up = false;
+  std::vector<std::string> without;  // meshes
+};
+
 // cases/rigs.toml says what each means. Paths start from the table's folder.
 struct RigDescription {
   std::string name, title;
@@ -28,7 +33,8 @@ struct RigDescription {
   std::string work;
   std::vector<std::string> reference;
   std::string effects_of;  // rig whose effects act on this one too; empty: none
-  std::string table;       // file that states it; empty: the table that is compiled in
+  RigPicture picture;
+  std::string table;  // file that states it; empty: the table that is compiled in
 
   bool is_rig() const { return !script.empty(); }
   // A path of the table, for `root`, the folder that holds cases/ and materials/.

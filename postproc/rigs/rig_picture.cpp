@@ -32,6 +32,7 @@
 #include <vector>
 
 #include "core/bad_input.h"
+#include "core/rig_table.h"
 #include "picture/film.h"
 #include "picture/render.h"
 
@@ -71,9 +72,12 @@ std::optional<Dump> last_dump(const fs::path& folder, const char* type, std::opt
   return last;
 }
 
-// A heap's cylinder has been lifted off it, and the fixed grains of a rough
-// base (centres under z = 0) would hide it.
-bool is_heap(const fs::path& run) { return fs::exists(run / "heap.csv"); }
+// How the table of rigs has a run drawn, whose record tells which rig it is.
+RigPicture picture_of(const fs::path& run) {
+  for (const RigDescription& rig : apparatuses())
+    if (!rig.record.empty() && fs::exists(run / rig.record)) return rig.picture;
+  return {};
+}
 
 // Grains with the point data `speed`, m/s, and `diameter`, m; with `over_base`
 // those with their centres over z = 0.
@@ -151,8 +155,8 @@ vtkNew<vtkTextActor> caption(const std::string& text, int size, double x, double
 // does after `turns`. Without a rotor the parts are where the last dump of
 // meshes has them, or where they began, all of them translucent. False if there
 // is none.
-bool add_parts(vtkRenderer* renderer, const fs::path& run, const TurningRotor* rotor, double turns,
-               std::optional<long> step) {
+bool add_parts(vtkRenderer* renderer, const fs::path& run, const std::vector<std::string>& without,
+               const TurningRotor* rotor, double turns, std::optional<long> step) {
   constexpr double kDrum = 0.18, kAnyPart = 0.4;
   if (const auto moved = last_dump(run / "vtk", ".stl", step); moved && !rotor) {
     renderer->AddActor(part_actor(moved->path, 0, {1, 0, 0}, kAnyPart));
@@ -161,10 +165,11 @@ bool add_parts(vtkRenderer* renderer, const fs::path& run, const TurningRotor* r
   bool any = false;
   std::error_code missing;
   for (const auto& file : fs::directory_iterator(run / "mesh", missing)) {
-    if (file.path().extension() != ".stl" || (is_heap(run) && file.path().stem() == "cylinder")) continue;
+    const std::string part = file.path().stem().string();
+    if (file.path().extension() != ".stl" || std::count(without.begin(), without.end(), part) > 0) continue;
     const TurningRotor none;
     const TurningRotor& r = rotor ? *rotor : none;
-    const bool stands = std::find(r.standing.begin(), r.standing.end(), file.path().stem()) != r.standing.end();
+    const bool stands = std::count(r.standing.begin(), r.standing.end(), part) > 0;
     renderer->AddActor(part_actor(file.path(), stands || !rotor ? 0 : 360 * turns, r.axis,
                                   stands  ? kDrum
                                   : rotor ? 1
@@ -231,18 +236,20 @@ bool draw_look(const std::string& run, const TurningRotor* rotor, const std::opt
                std::optional<double> fastest, const std::string& path) {
   const double turns =
       rotor && dump ? std::max(0.0, (static_cast<double>(dump->step) - rotor->start_step) / rotor->steps_per_turn) : 0;
+  const RigPicture picture = picture_of(run);
   vtkNew<vtkRenderer> renderer;
   renderer->SetBackground(1, 1, 1);
-  if (!add_parts(renderer, run, rotor, turns, dump ? std::optional(dump->step) : std::nullopt)) return false;
+  if (!add_parts(renderer, run, picture.without, rotor, turns, dump ? std::optional(dump->step) : std::nullopt))
+    return false;
   const char* title = "The rig";
   double shown[6];
   renderer->ComputeVisiblePropBounds(shown);
   if (dump) {
-    const auto grains = read_grains(dump->path, is_heap(run));
+    const auto grains = read_grains(dump->path, picture.close_up);
     title = add_grains(renderer, grains, fastest.value_or(greatest_speed(grains)))
                 ? "Grains in the rig, coloured by speed"
                 : "Grains in the rig, at rest";
-    if (is_heap(run)) {
+    if (picture.close_up) {
       double diameter[2];
       grains->GetPointData()->GetArray("diameter")->GetRange(diameter);
       grains->GetBounds(shown);  // of the centres
@@ -253,10 +260,9 @@ bool draw_look(const std::string& run, const TurningRotor* rotor, const std::opt
   if (rotor)
     renderer->AddActor2D(caption(fmt::format("{}, after {:.2f} turns", rotor->caption, turns), 24, 40, kHeight - 110));
 
-  // A little from above; a shaft from its end for the most part, a shear box
-  // across the direction of shear (x).
+  // A little from above; a shaft from its end for the most part.
   vtkCamera* camera = renderer->GetActiveCamera();
-  if (fs::exists(fs::path(run) / "shear.csv"))
+  if (picture.from_side)
     camera->SetPosition(-0.35, -1, 0.2);
   else
     camera->SetPosition(-1, -0.55, 0.35);
@@ -299,8 +305,9 @@ void draw_film(const std::string& run, const TurningRotor* rotor, const std::str
     throw BadInput(run.empty() ? "the folder" : run, 0, "holds fewer than two dumps of grains for a film",
                    "run the mixer with -var vtkPerTurn 60, another rig with "
                    "dumps of its own");
+  const bool over_base = picture_of(run).close_up;
   double fastest = 0;
-  for (const Dump& dump : shown) fastest = std::max(fastest, greatest_speed(read_grains(dump.path, is_heap(run))));
+  for (const Dump& dump : shown) fastest = std::max(fastest, greatest_speed(read_grains(dump.path, over_base)));
   Film film(path);
   for (const Dump& dump : shown)
     if (!draw_look(run, rotor, dump, fastest, film.next_frame()))

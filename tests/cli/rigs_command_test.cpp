@@ -171,6 +171,10 @@ TEST_F(Rigs, AFaultyTableIsRefusedWithFileLineAndMend) {
   expect_refused("rigs --rigs bad.toml", "bad.toml, line 7, column colour: is no condition; use speed, fill, moisture");
   with("[\"kg/s\", \"mass flow\"]", "[\"kg/s\"]");
   expect_refused("rigs --rigs bad.toml", "column outflow: states no unit and meaning; write outflow = [");
+  with("conditions = ", "picture = {from = \"above\"}\nconditions = ");
+  expect_refused("rigs --rigs bad.toml", "column from: 'above' is no place; write end or side");
+  with("conditions = ", "picture = {close_up = 1}\nconditions = ");
+  expect_refused("rigs --rigs bad.toml", "column close_up: is neither true nor false");
   with("title", "heading");
   expect_refused("rigs --rigs bad.toml", "column heading: is no key here; use title");
   expect_refused("rigs --rigs none.toml", "none.toml: cannot be read; name an existing TOML file");
