@@ -15,6 +15,7 @@
 #include "core/rig_table.h"
 #include "core/sha256.h"
 #include "gap/library/columns.h"
+#include "gap/library/sources.h"
 
 namespace vielto::gap {
 namespace {
@@ -109,9 +110,10 @@ void read_design(Library& library, const std::vector<Effect>& effects) {
 }
 
 /* What no simulated run can give: a bed without slope, power, stress or weight, a slope of 90 degrees. Such a row is a
-   mistake of its maker, and an emulator would take it as a response. A drift of zero may have any sign. */
+   mistake of its maker, and an emulator would take it as a response. A drift of zero may have any sign, and so may what
+   a paddle carries. */
 void refuse_impossible(const Observation& row, const std::string& path, int line) {
-  if (row.observable == "zero_drift") return;
+  if (row.observable == "zero_drift" || row.observable.rfind("paddle_share_", 0) == 0) return;
   if (!(row.value > 0))
     throw BadInput(path, line, "value", fmt::format("{} of {} is {}", row.observable, row.apparatus, row.value),
                    "state a value above 0, or remove the run");
@@ -244,6 +246,7 @@ Library Library::read(const std::string& folder, const std::vector<Effect>& effe
   check_fresh(library);
   check_effects(library, effects);
   read_tables(library);
+  add_paddle_shares(library);
   check_seeds(library);
   read_family(library);
   return library;

@@ -11,7 +11,7 @@
 // - other *.csv: observation tables, their rows under the tests of the design; u and role are not used
 // - posterior.csv: weight,PARAMETER... The calibrated family
 // - discrepancy.csv: what other contact laws do differently (discrepancy.h)
-// - sources.csv: test,source,torque_Nm (sources.h)
+// - sources.csv: test,kind,source,torque_Nm (sources.h); paddle_share_* of runs whose tables do not state them
 // - inputs.csv: file,sha256. What the runs were made from, and posterior.csv; paths from the folder: if one has
 //   changed, the library is stale
 // - effects.csv: effect,rig,changes. What the effects changed in each rig when their runs were made (Effect::changes);

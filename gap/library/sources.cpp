@@ -8,9 +8,12 @@
 #include <cmath>
 #include <filesystem>
 #include <map>
+#include <numeric>
+#include <set>
 
 #include "core/bad_input.h"
 #include "core/condition.h"
+#include "core/paddle_sectors.h"
 #include "gap/library/columns.h"
 
 namespace vielto::gap {
@@ -26,10 +29,6 @@ struct Sum {
   double sd() const { return n > 1 ? std::sqrt(squares / (n - 1)) : 0; }
 };
 
-// Sectors of a paddle's turn; its own angle counts from the y axis towards z, so that the lowest point is at 270 deg.
-constexpr int kSectors = 6;
-constexpr double kLowest = 270;
-
 // Torque of the paddles by sector, from phase_deg,paddle_Nm of phase.csv; empty for the whole drum.
 std::array<double, kSectors> sector_shares(const std::string& path) {
   std::array<double, kSectors> sums{};
@@ -40,9 +39,8 @@ std::array<double, kSectors> sector_shares(const std::string& path) {
       whole_drum = true;
       return;
     }
-    const double angle = std::fmod(column_number(path, number, "phase_deg", f[0]) - kLowest + 540, 360);  // 180: lowest
     const double torque = column_number(path, number, "paddle_Nm", f[1]);
-    sums[std::min(kSectors - 1, static_cast<int>(angle / (360.0 / kSectors)))] += torque;
+    sums[sector_of(column_number(path, number, "phase_deg", f[0]))] += torque;
     all += torque;
   });
   if (whole_drum || all == 0) return {};
@@ -50,7 +48,41 @@ std::array<double, kSectors> sector_shares(const std::string& path) {
   return sums;
 }
 
+std::string sector_name(std::size_t sector) {
+  return fmt::format("{:g} to {:g} deg", sector_begin(sector), sector_begin(sector) + kSectorWidth);
+}
+
 }  // namespace
+
+void add_paddle_shares(Library& library) {
+  const std::string path = (std::filesystem::path(library.folder) / "sources.csv").string();
+  if (!std::filesystem::exists(path)) return;
+  std::map<std::string, std::array<double, kSectors>> torques;
+  read_columns(path, {"test", "kind", "source", "torque_Nm"}, [&](int number, const std::vector<std::string_view>& f) {
+    for (std::size_t k = 0; f[1] == "phase" && k < kSectors; ++k)
+      if (f[2] == sector_name(k)) torques[std::string(f[0])][k] = column_number(path, number, "torque_Nm", f[3]);
+  });
+  std::set<int> seen;
+  std::vector<LibraryValue> shares;
+  for (const LibraryValue& value : library.values) {
+    const auto run = torques.find(value.row.test);
+    if (value.row.apparatus != "mixer" || run == torques.end() || !seen.insert(value.run).second) continue;
+    const double all = std::accumulate(run->second.begin(), run->second.end(), 0.0);
+    if (!(all > 0)) continue;
+    for (const PaddleShare& share : kPaddleShares) {
+      const bool stated = std::any_of(library.values.begin(), library.values.end(), [&](const LibraryValue& v) {
+        return v.run == value.run && v.row.observable == share.observable;
+      });
+      if (stated) continue;
+      LibraryValue added = value;
+      added.row.observable = share.observable;
+      added.row.unit = "1";
+      added.row.value = run->second[share.sector] / all;
+      shares.push_back(added);
+    }
+  }
+  library.values.insert(library.values.end(), shares.begin(), shares.end());
+}
 
 std::string sources_of_run(const std::string& test, const nlohmann::json& power, const std::string& phase_file) {
   std::string rows;
@@ -62,9 +94,7 @@ std::string sources_of_run(const std::string& test, const nlohmann::json& power,
     const auto shares = sector_shares(phase_file);
     const double paddles = power["parts"]["paddles"]["torque_Nm"].get<double>();
     const bool any = std::any_of(shares.begin(), shares.end(), [](double share) { return share != 0; });
-    for (int k = 0; any && k < kSectors; ++k)
-      add("phase", fmt::format("{:g} to {:g} deg", 360.0 / kSectors * k - 180, 360.0 / kSectors * (k + 1) - 180),
-          paddles * shares[k]);
+    for (std::size_t k = 0; any && k < kSectors; ++k) add("phase", sector_name(k), paddles * shares[k]);
   }
   if (power.contains("losses") && power["losses"].is_object())
     for (const auto& [loss, value] : power["losses"].items())

@@ -11,6 +11,8 @@
 // Shares and changes are parts of the rotor's torque (paddles + stems + shaft) in the baseline under the same
 // conditions; u from the scatter of the baseline's seeds, which an effect's single run has too.
 //
+// The paddles' torque by sector is an observable too (paddle_sectors.h): runs of before that was so have it from here.
+//
 // Errors: BadInput with file and line.
 #pragma once
 
@@ -26,6 +28,9 @@ constexpr const char* kSourcesHeader = "test,kind,source,torque_Nm\n";
 
 // The rows of one run, from its power.json and its phase.csv, if that is there.
 std::string sources_of_run(const std::string& test, const nlohmann::json& power, const std::string& phase_file);
+
+// Adds the paddle_share_* of every run of the mixer that sources.csv holds and whose tables do not state them.
+void add_paddle_shares(Library& library);
 
 // [{speed, fill, kind, source, share, u, effects: [{name, strength, change, u}]}]; empty without sources.csv.
 // `effects`: those that are shown, at the largest strength that was run.

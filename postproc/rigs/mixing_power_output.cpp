@@ -14,7 +14,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 // The ripple of a machine that repeats exactly; an observation's u must be above 0.
-constexpr double kLeastRippleU = 1e-9;
+constexpr double kLeastRippleU = 1e-9, kLeastShareU = 1e-6;
 
 Json or_null(const std::optional<MeanUncertainty>& m, double MeanUncertainty::*member) {
   return m ? Json((*m).*member) : Json(nullptr);
@@ -216,6 +216,8 @@ std::vector<Observation> power_observations(const MixingPower& p, const TestLabe
     add("power", p.power.mean, p.power.u);
   }
   add("torque_ripple", p.curves.ripple, std::max(p.curves.ripple_u, kLeastRippleU));
+  for (std::size_t k = 0; k < kPaddleShares.size() && !p.curves.paddle.empty(); ++k)
+    add(kPaddleShares[k].observable, p.curves.shares[k], std::max(p.curves.shares_u[k], kLeastShareU));
   return rows;
 }
 

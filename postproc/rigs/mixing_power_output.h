@@ -32,7 +32,8 @@ std::string power_table(const MixingPower& power);
 // drum_Nm. Of a machine no paddle_Nm, and its own parts, those that turn before the rotor.
 std::string phase_csv(const MixingPower& power);
 
-// Rows for power_loaded and power_idle, or power without an idling record, and for torque_ripple.
+// Rows for power_loaded and power_idle, or power without an idling record, for torque_ripple, and of a slice for the
+// shares of a paddle's torque by its place.
 std::vector<Observation> power_observations(const MixingPower& power, const TestLabel& label);
 
 // Such as n1.21-l0.15.

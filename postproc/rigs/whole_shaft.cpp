@@ -75,6 +75,47 @@ std::vector<double> phase_mean(const std::vector<double>& signal, int first, int
   return mean;
 }
 
+namespace {
+
+// Mean of n curves without one of them.
+Curve left_out(const Curve& mean, const Curve& one, double n) {
+  Curve rest = scaled(n / (n - 1), mean);
+  add(rest, -1 / (n - 1), one);
+  return rest;
+}
+
+// Standard uncertainty from the values with one turn left out at a time.
+double jackknife(const std::vector<double>& without) {
+  const double n = static_cast<double>(without.size());
+  const double mean = std::accumulate(without.begin(), without.end(), 0.0) / n;
+  double squares = 0;
+  for (const double r : without) squares += (r - mean) * (r - mean);
+  return std::sqrt((n - 1) / n * squares);
+}
+
+std::array<double, kPaddleShares.size()> shares_of(const Curve& paddle) {
+  std::array<double, kSectors> sectors{};
+  for (std::size_t i = 0; i < paddle.size(); ++i)
+    sectors[sector_of(360.0 / kPhases * (static_cast<double>(i) + 0.5))] += paddle[i];
+  const double all = std::accumulate(sectors.begin(), sectors.end(), 0.0);
+  std::array<double, kPaddleShares.size()> shares{};
+  for (std::size_t k = 0; k < shares.size() && all != 0; ++k) shares[k] = sectors[kPaddleShares[k].sector] / all;
+  return shares;
+}
+
+void add_shares(const TorqueRecord& record, int first, int count, ShaftCurves& curves) {
+  if (curves.paddle.empty()) return;
+  curves.shares = shares_of(curves.paddle);
+  std::array<std::vector<double>, kPaddleShares.size()> without;
+  for (int t = 0; t < count; ++t) {
+    const auto shares = shares_of(left_out(curves.paddle, single_paddle(record, first + t, 1), count));
+    for (std::size_t k = 0; k < shares.size(); ++k) without[k].push_back(shares[k]);
+  }
+  for (std::size_t k = 0; k < without.size(); ++k) curves.shares_u[k] = jackknife(without[k]);
+}
+
+}  // namespace
+
 ShaftCurves shaft_curves(const TorqueRecord& record, int first, int count) {
   ShaftCurves curves;
   const double scale = record.header.whole_drum();
@@ -96,15 +137,9 @@ ShaftCurves shaft_curves(const TorqueRecord& record, int first, int count) {
     curves.rotor_u[i] = std::sqrt(squares / (n - 1) / n);
   }
   std::vector<double> without;  // ripple with one turn left out
-  for (const Curve& turn : turns) {
-    Curve rest = scaled(n / (n - 1), curves.rotor);
-    add(rest, -1 / (n - 1), turn);
-    without.push_back(ripple(rest));
-  }
-  const double mean = std::accumulate(without.begin(), without.end(), 0.0) / n;
-  double squares = 0;
-  for (const double r : without) squares += (r - mean) * (r - mean);
-  curves.ripple_u = std::sqrt((n - 1) / n * squares);
+  for (const Curve& turn : turns) without.push_back(ripple(left_out(curves.rotor, turn, n)));
+  curves.ripple_u = jackknife(without);
+  add_shares(record, first, count, curves);
   double noise = 0;
   for (const double u : curves.rotor_u) noise += u * u / kPhases;
   const double torque = std::accumulate(curves.rotor.begin(), curves.rotor.end(), 0.0) / kPhases;

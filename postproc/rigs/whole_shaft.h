@@ -11,10 +11,14 @@
 // Ripple: standard deviation over mean of the turn-averaged T within a turn. Its standard uncertainty is the
 // jackknife's, one turn left out at a time (Efron and Tibshirani 1993, chapter 11). The noise that few turns leave in T
 // adds to it: without, it would be sqrt(ripple^2 - ripple_noise^2).
+//
+// Shares of a paddle's torque by its place (paddle_sectors.h): of t(theta), with the same jackknife.
 #pragma once
 
+#include <array>
 #include <vector>
 
+#include "core/paddle_sectors.h"
 #include "rigs/torque_record.h"
 
 namespace vielto {
@@ -26,7 +30,9 @@ struct ShaftCurves {
   std::vector<double> rotor;
   std::vector<double> rotor_u;      // standard uncertainty, from the spread between turns
   double ripple = 0, ripple_u = 0;  // 1
-  double ripple_noise = 0;          // root mean square of rotor_u over the mean of the rotor, 1
+  std::array<double, kPaddleShares.size()> shares{},
+      shares_u{};           // in the order of kPaddleShares, 1; none without a slice
+  double ripple_noise = 0;  // root mean square of rotor_u over the mean of the rotor, 1
 };
 
 // Over `count` >= 2 turns of the record from its turn `first` on.

@@ -111,7 +111,7 @@ TEST_F(PostCommand, IdlingIsSubtractedByTheMeasurementChainOnly) {
   EXPECT_NEAR(p["power_idle_W"], omega * 0.5, 1e-6);
   EXPECT_NEAR(p["power_W"], omega * 4.125, 1e-6);
   const auto rows = vielto::read_observations((folder_ / "run/post/observations.csv").string());
-  ASSERT_EQ(rows.size(), 3u);
+  ASSERT_EQ(rows.size(), 6u);
   EXPECT_EQ(rows[0].observable, "power_loaded");
   EXPECT_NEAR(rows[0].value, omega * 4.725, 1e-6);
   EXPECT_EQ(rows[1].observable, "power_idle");
@@ -122,7 +122,10 @@ TEST_F(PostCommand, ObservationRowsCarryTheConditions) {
   quiet_.write(folder_ / "run");
   ASSERT_EQ(post("run/torque.csv --test M7 --role check --moisture 0.089 --wall steel"), 0) << err_;
   const auto rows = vielto::read_observations((folder_ / "run/post/observations.csv").string());
-  ASSERT_EQ(rows.size(), 2u);
+  ASSERT_EQ(rows.size(), 5u);
+  EXPECT_EQ(rows[2].observable, "paddle_share_carried");
+  EXPECT_EQ(rows[3].observable, "paddle_share_entering");
+  EXPECT_EQ(rows[4].observable, "paddle_share_leaving");
   EXPECT_EQ(rows[0].test, "M7");
   EXPECT_EQ(rows[0].role, "check");
   EXPECT_EQ(rows[0].apparatus, "mixer");

@@ -229,6 +229,11 @@ TEST_F(GapLibraryPlan, CollectsWhatIsDoneAndNamesTheRest) {
     const auto share = shares.find(s["source"]);
     EXPECT_NEAR(s["share"], share == shares.end() ? 0 : share->second, 1e-5) << s;  // six digits in the table
   }
+  // What enters the bed is a third of a paddle's torque; the runs' tables say nothing of it, their sources do.
+  ASSERT_EQ(gap("predict --library library --observable paddle_share_entering --speed 0.5 --fill 0.1 --out share.csv"),
+            0)
+      << err_;
+  EXPECT_NEAR(std::stod(table(folder_ / "share.csv")[0].at("value")), 1.0 / 3, 1e-5);
   const std::string page = content(folder_ / "answer/diagnosis.html");
   for (const char* words : {"Where in the machine", "0 to 60 deg", "<td>sliding</td>"})
     EXPECT_NE(page.find(words), std::string::npos) << words;

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <numeric>
 #include <random>
@@ -61,6 +62,20 @@ TEST(WholeShaft, TurningACurveByPhasesMovesItAndByPartsBlendsIt) {
 TEST(WholeShaft, SinglePaddleIsFoundAtItsOwnAngle) {
   const auto curves = vielto::shaft_curves(slice({30, 120, 210, 300}, 90, 2, 0.2, [](int) { return 0.05; }), 0, 2);
   for (int i = 0; i < kPhases; ++i) EXPECT_NEAR(curves.paddle[i], 0.2 + 0.05 * std::cos(middle(i)), 1e-12);
+}
+
+// a + b cos(theta) is a + b sin(s) at s past the lowest point: the share of a sector from p to q is
+// 1/6 + b/(2 pi a) (cos p - cos q), at the middles of phases of 5 degrees times h/sin(h), h = 2.5 degrees. As the
+// turns' b differ, a share's uncertainty is that of their mean.
+TEST(WholeShaft, SharesOfAPaddlesTorqueByItsPlace) {
+  const auto swing = [](int turn) { return 0.05 + 0.01 * turn; };  // 0.05, 0.06, 0.07: sd 0.01
+  const auto curves = vielto::shaft_curves(slice({30, 120, 210, 300}, 90, 3, 0.2, swing), 0, 3);
+  const double h = kPi / 72, of_swing = h / std::sin(h) / (2 * kPi * 0.2);
+  const std::array<double, 3> cosines = {-1, -0.5, 1};  // carried -120 to -60, entering -60 to 0, leaving 60 to 120
+  for (std::size_t k = 0; k < 3; ++k) {
+    EXPECT_NEAR(curves.shares[k], 1.0 / 6 + 0.06 * of_swing * cosines[k], 1e-12) << k;
+    EXPECT_NEAR(curves.shares_u[k], 0.01 / std::sqrt(3.0) * of_swing * std::fabs(cosines[k]), 1e-12) << k;
+  }
 }
 
 TEST(WholeShaft, PhaseShiftedSumOfTwentyTwoPaddles) {
