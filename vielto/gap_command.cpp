@@ -47,6 +47,7 @@ struct GapOptions {
   std::string reference;
   std::vector<std::string> tables, ignored, only, reference_only, without, known, vars;
   double runs_per_observation = 1, transfer = 0;
+  bool change_only = false;
   std::uint64_t seed = 1;
   int seeds = 1, draws = 0, jobs = 1;
   bool extrapolate = false, no_discrepancy = false, run = false;
@@ -182,14 +183,14 @@ void write_answer(const GapOptions& o, const Question& q, const Diagnosis& d, co
   add_points(j, points_of(q.model, d));
   if (q.reference) {
     j["reference"] = q.reference_json();
-    j["why_it_is_off"] = without_reference(o);
+    if (!o.change_only) j["why_it_is_off"] = without_reference(o);
   }
   const fs::path out = make_out(o.out);
   const std::string page = diagnosis_page(j, title_of(o));
   write_json(out / "diagnosis.json", j);
   write_whole_file((out / "diagnosis.html").string(), page);
   fmt::print("{}\n", verdict_sentence(d));
-  if (q.reference) fmt::print("Without the reference: {}\n", j["why_it_is_off"]["sentence"].get<std::string>());
+  if (j.contains("why_it_is_off")) fmt::print("Without the reference: {}\n", j["why_it_is_off"]["sentence"].get<std::string>());
   for (const std::string& note : d.notes) fmt::print("note: {}\n", note);
 }
 
@@ -390,6 +391,9 @@ void add_diagnose(CLI::App* gap, const Options& o) {
                           "Example: vielto gap diagnose measured.csv --library libraries/millet --out answer");
   add_question_options(c, o);
   add_answer_options(c, o);
+  c->add_flag("--change-only", o->change_only,
+              "with a reference: what has changed, not besides why the simulation is off by itself")
+      ->needs("--reference");
   c->add_option("--out", o->out, "folder for the answer")->required();
   c->callback([o] { run_diagnose(*o); });
 }

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "gap/emulator/reference.h"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
 
 #include "core/bad_input.h"
+#include "core/condition.h"
 #include "core/statistics.h"
 #include "gap/emulator/unknown_gap.h"
 
@@ -48,6 +50,31 @@ MatrixXd scatter(const MatrixXd& members, const VectorXd& mean, const VectorXd& 
   return centred * weights.asDiagonal() * centred.transpose();
 }
 
+bool same_bench_row(const Observation& a, const Observation& b) {
+  return a.apparatus == "bench" && b.apparatus == "bench" && a.observable == b.observable &&
+         conditions_text(a) == conditions_text(b);
+}
+
+// What a bench row may have been off by in both states, its variance in K_00, K_10 and K_11: all that an effect can do.
+MatrixXd bench_offsets(const TableModel& logs, Index n) {
+  MatrixXd common = MatrixXd::Zero(logs.size(), logs.size());
+  for (Index i = 0; i < n; ++i)
+    for (Index j = n; j < logs.size(); ++j) {
+      if (!same_bench_row(logs.rows[static_cast<std::size_t>(i)], logs.rows[static_cast<std::size_t>(j)])) continue;
+      double most = 0;
+      for (const EffectResponse& e : logs.effects) most = std::max(most, e.mean.row(j).cwiseAbs().maxCoeff());
+      common(i, i) = common(j, j) = common(i, j) = common(j, i) = most * most;
+    }
+  return common;
+}
+
+// In logarithms, with what cancels between the states in the discrepancy.
+TableModel both_states(const TableModel& joint, Index n) {
+  TableModel logs = joint.in_logarithms(TableModel::Values::placeholders);
+  logs.discrepancy += bench_offsets(logs, n);
+  return logs;
+}
+
 }  // namespace
 
 VectorXd expected_reference(const TableModel& joint, Index n) {
@@ -59,8 +86,8 @@ VectorXd expected_reference(const TableModel& joint, Index n) {
 }
 
 double reference_probability(const TableModel& joint, const VectorXd& reference) {
-  const TableModel logs = joint.in_logarithms(TableModel::Values::placeholders);
   const Index n = reference.size();
+  const TableModel logs = both_states(joint, n);
   const VectorXd r = residual(logs, reference);
   const MatrixXd c = logs.null_covariance().topLeftCorner(n, n);
   return chi2_exceedance(r.dot(c.llt().solve(r)), static_cast<double>(n));
@@ -70,7 +97,7 @@ TableModel given_reference(const TableModel& joint, const VectorXd& reference, d
                            const Settings& settings) {
   const Index n = reference.size(), m = joint.size() - n;
   const Blocks blocks{n, m};
-  const TableModel logs = joint.in_logarithms(TableModel::Values::placeholders);
+  const TableModel logs = both_states(joint, n);
   const MatrixXd k = logs.emulator + logs.family + logs.discrepancy;
   const MatrixXd own = blocks.of00(k + logs.noise + logs.seed);
   const MatrixXd w = own.llt().solve((blocks.of10(k) + blocks.of10(logs.noise)).transpose()).transpose();

@@ -9,7 +9,9 @@
 // and `reference` = W (U_00 + S_00) W' + transfer K_11, where U_10 is 0; where rows of both states share errors, the
 // measurement's part stands in the noise: U_11 - W U_01 - U_10 W' + W U_00 W'. The sum is the conditional covariance of
 // y1 given y0. `transfer`: the part of K that the change itself may have moved (a machine that was rebuilt between).
-// Effects are of the change: numerical ones cancel and are no candidates.
+// Effects are of the change: numerical ones cancel and are no candidates. A row of the bench that both states state (a
+// gauge, a count of turns) shows what has changed since the reference's reading, whatever the card says: it may have
+// been off in both by as much as any effect moves it.
 //
 // S must come from repeats of the measurement (question/repeats.h), never from the library: what hides it otherwise,
 // calibration and law, cancels here.

@@ -110,6 +110,40 @@ TEST(GapReference, ExactReferenceCancelsWhatBothShare) {
 }
 
 // Two groups of three and two values about 10 and 20 by hand, with and without shared errors.
+// A gauge that reads 0.09 where the card says 0.05, u = 0.01, and an effect that moves it by up to A = 0.2: of two
+// states y1 given y0 is f + A^2/(A^2 + u^2) (y0 - f), its variance A^2 u^2/(A^2 + u^2) + u^2. Of one state alone the
+// card stands.
+TEST(GapReference, ABenchRowOfBothStatesShowsTheChangeOfTheReading) {
+  const double u = 0.01, A = 0.2;
+  TableModel joint;
+  joint.rows.resize(2);
+  for (Observation& row : joint.rows) row.apparatus = "bench", row.observable = "grain_spread";
+  joint.baseline = joint.observed = VectorXd::Constant(2, 0.05);
+  joint.family_shift = joint.relative = joint.logarithmic = joint.unknown_scale = VectorXd::Zero(2);
+  joint.scale = VectorXd::Constant(2, 0.05);
+  joint.noise = u * u * MatrixXd::Identity(2, 2);
+  joint.seed = joint.emulator = joint.discrepancy = joint.reference = joint.family = MatrixXd::Zero(2, 2);
+  joint.shape_correlation = MatrixXd::Identity(2, 2);
+  joint.family_members.resize(2, 0);
+  EffectResponse effect;
+  effect.name = "size_spread", effect.kind = "dem", effect.high = 0.2;
+  effect.strengths = VectorXd::LinSpaced(2, 0, 0.2);
+  effect.mean = MatrixXd::Zero(2, 2);
+  effect.mean.col(1).setConstant(A);
+  effect.covariance.assign(2, MatrixXd::Zero(2, 2));
+  joint.effects = {effect};
+  const VectorXd reading = VectorXd::Constant(1, 0.09);
+  const TableModel changed = given_reference(joint, reading, 0, settings());
+  const double w = A * A / (A * A + u * u);
+  EXPECT_NEAR(changed.baseline[0], 0.05 + w * 0.04, 1e-12);
+  EXPECT_NEAR(changed.null_covariance()(0, 0), w * u * u + u * u, 1e-12);
+  EXPECT_GT(reference_probability(joint, reading), 0.5);  // 4 u from the card, but within what a machine may be off by
+
+  joint.rows[1].speed = 1;  // another place: nothing is shared
+  EXPECT_NEAR(given_reference(joint, reading, 0, settings()).baseline[0], 0.05, 1e-12);
+  EXPECT_LT(reference_probability(joint, reading), 1e-4);
+}
+
 TEST(GapRepeats, PooledScatterByHand) {
   vielto::ReducedTable table;
   const double values[] = {9, 10, 11, 20, 22};
