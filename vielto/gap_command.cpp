@@ -190,7 +190,8 @@ void write_answer(const GapOptions& o, const Question& q, const Diagnosis& d, co
   write_json(out / "diagnosis.json", j);
   write_whole_file((out / "diagnosis.html").string(), page);
   fmt::print("{}\n", verdict_sentence(d));
-  if (j.contains("why_it_is_off")) fmt::print("Without the reference: {}\n", j["why_it_is_off"]["sentence"].get<std::string>());
+  if (j.contains("why_it_is_off"))
+    fmt::print("Without the reference: {}\n", j["why_it_is_off"]["sentence"].get<std::string>());
   for (const std::string& note : d.notes) fmt::print("note: {}\n", note);
 }
 

@@ -217,7 +217,8 @@ std::vector<Observation> power_observations(const MixingPower& p, const TestLabe
   }
   add("torque_ripple", p.curves.ripple, std::max(p.curves.ripple_u, kLeastRippleU));
   for (std::size_t k = 0; k < kPaddleShares.size() && !p.curves.paddle.empty(); ++k)
-    add(kPaddleShares[k].observable, p.curves.shares[k], std::max(p.curves.shares_u[k], kLeastShareU));
+    if (observable_unit(p.header.rig, kPaddleShares[k].observable))
+      add(kPaddleShares[k].observable, p.curves.shares[k], std::max(p.curves.shares_u[k], kLeastShareU));
   return rows;
 }
 
