@@ -181,6 +181,18 @@ TEST(LawLoss, FallingLimitLosesTheStoredEnergy) {
                   0.5 * 0.0025 / 4000);
 }
 
+// The same of a twisting moment, by hand: work -1/2 dt (M + M') w = 5e-6 * 0.05 * 3 = 7.5e-7 J; stored energy falls
+// from 0.04^2/(2 k) to 0.01^2/(2 k), k = 200 N m: by 0.0015/400 = 3.75e-6 J. And a moment that only grows loses
+// nothing.
+TEST(LawLoss, OfAMomentIsItsWorkLessWhatItStores) {
+  expect_relative(vielto::capped_spring_loss(-0.04, -0.01, 3.0, 1e-5, 200.0), 7.5e-7 + 3.75e-6);
+  expect_relative(vielto::capped_spring_loss(-0.01, -0.04, 3.0, 1e-5, 200.0), 7.5e-7 - 3.75e-6);
+  bool twisting;
+  const double ktw = 0.05, old = 3e-4, rate = -40, dt = 1e-5;
+  const double now = vielto::twisting_spring(ktw, old, rate, dt, 1.0, twisting);
+  EXPECT_NEAR(vielto::capped_spring_loss(old, now, rate, dt, ktw), 0, 1e-14 * 0.5 * now * now / ktw);
+}
+
 TEST(LawLoss, WithoutSpringThereIsNone) {
   EXPECT_EQ(vielto::capped_spring_loss(1.0, 0.0, 3.0, 1e-5, 0.0), 0.0);
   EXPECT_EQ(vielto::capped_spring_loss(Vec{1, 0, 0}, Vec{0, 0, 0}, Vec{3, 0, 0}, 1e-5, 0.0), 0.0);
