@@ -47,10 +47,12 @@ std::string escaped(const std::string& text) {
   return out;
 }
 
-// Inside a script element a literal "</" would end it.
-std::string in_script(std::string text) {
-  for (std::size_t at = 0; (at = text.find("</", at)) != std::string::npos; at += 3) text.insert(at + 1, "\\");
-  return text;
+// JSON inside a script element: a literal "</script" would end it, and "<!--<script" would keep its end from being
+// seen.
+std::string in_script(const std::string& json) {
+  std::string out;
+  for (const char c : json) out += c == '<' ? std::string("\\u003c") : std::string(1, c);
+  return out;
 }
 
 std::string base64(const std::string& bytes) {

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -16,7 +15,10 @@
 
 #include "core/bad_input.h"
 #include "core/csv.h"
+#include "core/json_file.h"
+#include "core/program.h"
 #include "core/sha256.h"
+#include "picture/display.h"
 #include "report/diagnosis_page.h"
 #include "report/equation_pages.h"
 #include "report/file_pages.h"
@@ -36,12 +38,6 @@ std::string text_of(const fs::path& path) {
   std::ostringstream text;
   text << in.rdbuf();
   return text.str();
-}
-
-std::string quoted(const std::string& text) {
-  std::string out = "'";
-  for (const char c : text) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return out + "'";
 }
 
 std::vector<fs::path> sorted(const fs::path& folder) {
@@ -83,7 +79,7 @@ void need_plot_programs(const ReportRequest& request) {
   if (!fs::exists(library))
     throw BadInput(library, 0, "is not there: the plotting library was not fetched when vielto was built",
                    "fetch it with `scripts/get-echarts`, or leave the plots out with --no-plots");
-  if (request.svg && std::system("node --version >/dev/null 2>&1") != 0)
+  if (request.svg && run_program({"node", "--version"}, {"", "/dev/null"}) != 0)
     throw BadInput("node", 0, "is not there: it draws the SVG files",
                    "install the package nodejs, or leave them out with --no-svg");
 }
@@ -92,9 +88,8 @@ void need_plot_programs(const ReportRequest& request) {
 std::string rig_picture(const fs::path& run, const fs::path& out, const std::string& name,
                         std::vector<std::string>& lines) {
   const fs::path made = out / ((name.empty() ? "" : name + "_") + std::string("rig.png"));
-  const char* display = std::getenv("DISPLAY");
   const fs::path drawn = run / "post/grains.png";
-  if (display && *display) {
+  if (has_display()) {
     std::optional<TurningRotor> rotor;
     if (is_power_run(run.string())) rotor = turning_rotor(read_torque_record((run / "torque.csv").string()));
     if (draw_rig(run.string(), rotor ? &*rotor : nullptr, made.string())) return made.string();
@@ -122,12 +117,7 @@ std::array<Section, 2> provenance(const std::vector<std::pair<std::string, fs::p
           fmt::format("There is no run.json{}: where it comes from is not recorded.", of), Paragraph::Tone::warning});
       continue;
     }
-    json j;
-    try {
-      j = json::parse(text_of(path));
-    } catch (const json::exception& error) {
-      throw BadInput(path.string(), 0, fmt::format("is no JSON ({})", error.what()), "run the case again");
-    }
+    const json j = read_json_file(path.string(), "run the case again");
     Table facts{"Run" + of, {"what", "value"}, {}}, hashes{"SHA-256 of the inputs" + of, {"file", "hash"}, {}},
         parameters{"Parameters" + of, {"name", "value"}, {}};
     for (const char* key : {"status", "command", "ranks"})
@@ -204,7 +194,7 @@ void Work::add_runs() {
     const auto point = add_run(of, alone || runs.size() == 1, run_pages);
     if (point) {
       points.push_back(*point);
-      table.emplace_back(*point, json::parse(text_of(run / "post/power.json")));
+      table.emplace_back(*point, read_json_file((run / "post/power.json").string(), "evaluate the run again"));
     }
     read.insert(of.read.begin(), of.read.end());
     if (fs::exists(run / "run.json")) read.insert((run / "run.json").string());
@@ -260,7 +250,7 @@ void Work::add_files() {
       if (type == ".csv") csv.push_back(file);
       if (type == ".png") pictures.push_back({name, file.string()});
       if (type != ".json") continue;
-      json j = json::parse(text_of(file), nullptr, false);
+      json j = read_json_file(file.string(), "make the file again");
       if (j.is_object() && j.contains("coefficients") && j.contains("prediction"))
         fits.emplace_back(file, std::move(j));
       else if (gap::is_diagnosis(j))
@@ -323,9 +313,7 @@ std::vector<std::string> write_report(const ReportRequest& request) {
   if (request.plots && request.svg && !names.empty()) {
     const std::string list = (out / "plots.json").string();
     write_whole_file(list, plots_json(page));
-    const std::string command = fmt::format("node {} {} {} {}", quoted(web_file("svg.js")),
-                                            quoted(web_file("echarts.min.js")), quoted(list), quoted(out.string()));
-    if (std::system(command.c_str()) != 0)
+    if (run_program({"node", web_file("svg.js"), web_file("echarts.min.js"), list, out.string()}) != 0)
       throw std::runtime_error("node could not draw the plots as SVG; its message stands above");
     fs::remove(list);
   }

@@ -3,13 +3,13 @@
 // vielto geometry --check FILE.stl [--closed]                                     measures one
 #include <fmt/format.h>
 
-#include <cstdlib>
 #include <memory>
 
 #include "commands.h"
 #include "core/bad_input.h"
 #include "geometry/geometry_output.h"
 #include "geometry/stl.h"
+#include "picture/display.h"
 #include "rigs/rig_code.h"
 
 namespace vielto {
@@ -32,7 +32,7 @@ void check(const Options& o) {
 }
 
 void make(const Options& o) {
-  if (!o.picture.empty() && std::getenv("DISPLAY") == nullptr)
+  if (!o.picture.empty() && !has_display())
     throw BadInput("--picture " + o.picture, 0, "cannot be drawn without a display",
                    "run the command under 'xvfb-run -a'");
   ParFile file = ParFile::read(o.par_file);

@@ -31,5 +31,9 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "vielto: %s\n", error.what());
     return 1;
   }
+  if (std::fflush(stdout) != 0 || std::ferror(stdout)) {
+    std::fputs("vielto: standard output cannot be written; check the space left\n", stderr);
+    return 1;
+  }
   return 0;
 }

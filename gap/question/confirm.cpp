@@ -3,14 +3,14 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <spawn.h>
-#include <sys/wait.h>
+#include <sys/file.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <mutex>
 #include <regex>
 #include <set>
@@ -21,6 +21,7 @@
 #include "core/bad_input.h"
 #include "core/condition.h"
 #include "core/csv.h"
+#include "core/program.h"
 #include "core/rig_table.h"
 #include "core/sha256.h"
 #include "gap/library/rig.h"
@@ -63,23 +64,55 @@ std::string quoted(const std::vector<std::string>& words) {
   return text;
 }
 
-// Runs a command in a folder without a shell, what it prints appended to `log`. True if it ended with 0.
-bool runs_well(const std::vector<std::string>& command, const std::string& folder, const std::string& log) {
-  std::vector<char*> words;
-  for (const std::string& word : command) words.push_back(const_cast<char*>(word.c_str()));
-  words.push_back(nullptr);
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_addopen(&actions, 1, fs::absolute(log).c_str(), O_WRONLY | O_CREAT | O_APPEND, 0644);
-  posix_spawn_file_actions_adddup2(&actions, 1, 2);
-  posix_spawn_file_actions_addchdir_np(&actions, folder.c_str());
-  pid_t child = 0;
-  int status = 0;
-  const bool started = posix_spawnp(&child, words[0], &actions, nullptr, words.data(), environ) == 0;
-  posix_spawn_file_actions_destroy(&actions);
-  while (started && waitpid(child, &status, 0) == -1 && errno == EINTR) {
+// Held by one process at a time and by the runs that it starts, which go on where it is killed: whoever calls again
+// waits for their end.
+class RunLock {
+ public:
+  explicit RunLock(const std::string& run)
+      : file_(::open((run + ".lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644)) {
+    if (file_ < 0) throw std::runtime_error(fmt::format("{}.lock: cannot be written; check the folder", run));
+    while (flock(file_, LOCK_EX) == -1 && errno == EINTR) {
+    }
   }
-  return started && WIFEXITED(status) && WEXITSTATUS(status) == 0;
+  ~RunLock() { ::close(file_); }
+  RunLock(const RunLock&) = delete;
+  RunLock& operator=(const RunLock&) = delete;
+  int file() const { return file_; }
+
+ private:
+  int file_;
+};
+
+bool contains(const std::string& file, const std::string& words) {
+  std::ifstream in(file);
+  for (std::string line; std::getline(in, line);)
+    if (line.find(words) != std::string::npos) return true;
+  return false;
+}
+
+bool is_done(const PlannedRun& run) { return fs::exists(fs::path(run.run) / "post" / "observations.csv"); }
+
+// The run and its rows, what is there of it taken up. True if both ended well.
+bool complete(const PlannedRun& run) {
+  const RunLock lock(run.run);
+  if (is_done(run)) return true;  // by another process meanwhile
+  const std::string partial = run.run + ".partial", log = run.run + ".out";
+  const ProgramPlace place{run.folder, log, lock.file()};
+  fs::remove(log);
+  if (!run.command.empty() && !fs::exists(fs::path(run.run) / "run.json")) {
+    if (!run.resumes) fs::remove_all(partial);
+    std::vector<std::string> command = run.command;
+    if (fs::exists(partial)) command.insert(command.end(), {"-var", "resume", "yes"});
+    bool well = run_program(command, place) == 0;
+    // killed before its first restart was whole: there is nothing to take up
+    if (!well && fs::exists(partial) && contains(log, "cannot resume")) {
+      fs::remove(log);
+      fs::remove_all(partial);
+      well = run_program(run.command, place) == 0;
+    }
+    if (!well) return false;
+  }
+  return run.post.empty() || run_program(run.post, place) == 0;
 }
 
 // -var of the library's own runs of a rig: what its plan says.
@@ -361,17 +394,9 @@ void refuse_other_runs(const Plan& plan) {
 void run_plan(const Plan& plan, int jobs) {
   std::vector<PlannedRun> missing;
   for (const PlannedRun& run : plan.runs) {
-    if (fs::exists(fs::path(run.run) / "post" / "observations.csv")) continue;
+    if (is_done(run)) continue;
     fs::create_directories(fs::path(run.run).parent_path());
-    PlannedRun now = run;
-    if (fs::exists(fs::path(run.run) / "run.json"))
-      now.command.clear();  // complete, only its rows are missing
-    else if (fs::exists(run.run + ".partial") && !run.resumes)
-      fs::remove_all(run.run + ".partial");
-    else if (fs::exists(run.run + ".partial"))
-      now.command.insert(now.command.end(), {"-var", "resume", "yes"});
-    fs::remove(run.run + ".out");
-    missing.push_back(now);
+    missing.push_back(run);
   }
   std::mutex lock;
   std::size_t next = 0;
@@ -386,12 +411,14 @@ void run_plan(const Plan& plan, int jobs) {
         fmt::print("{} of {}: {}\n", next, missing.size(), command_line(run));
         std::fflush(stdout);
       }
-      const std::string log = run.run + ".out";
-      if ((!run.command.empty() && !runs_well(run.command, run.folder, log)) ||
-          (!run.post.empty() && !runs_well(run.post, run.folder, log))) {
-        const std::lock_guard<std::mutex> guard(lock);
-        if (failed.empty()) failed = fmt::format("a run failed, see {}: {}", log, command_line(run));
+      std::string fault;
+      try {
+        if (!complete(run)) fault = fmt::format("a run failed, see {}.out: {}", run.run, command_line(run));
+      } catch (const std::exception& e) {
+        fault = e.what();
       }
+      const std::lock_guard<std::mutex> guard(lock);
+      if (failed.empty()) failed = fault;
     }
   };
   std::vector<std::thread> workers;

@@ -73,8 +73,9 @@ std::string command_line(const PlannedRun& run);
 // Errors: BadInput naming a run folder that is there and was made by another command or from other files.
 void refuse_other_runs(const Plan& plan);
 
-// Runs what is missing, `jobs` at a time. Errors: std::runtime_error naming the command that failed; what has begun
-// ends first.
+// Runs what is missing, `jobs` at a time. Waits for runs that another process has begun and that are still at work,
+// takes up those that were broken off, from their newest restart or anew. Errors: std::runtime_error naming the command
+// that failed; what has begun ends first.
 void run_plan(const Plan& plan, int jobs);
 
 // The measured shrink. With a reference state of the change: what the simulation shows is corrected by what it is off

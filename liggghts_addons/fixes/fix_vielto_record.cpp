@@ -145,6 +145,9 @@ int FixViEltoRecord::read_energy(const std::string& value) {
 
 void FixViEltoRecord::init() {
   FixViEltoRows::init();
+  // LIGGGHTS writes a number of steps from 1e15 on with an exponent, and reads 1e+15 as 1
+  if (turns_ > 0 && !(turns_ / (speed_ * update->dt) < 1e15))
+    error->fix_error(FLERR, this, "more steps are asked for than LIGGGHTS can count; lower turns");
   if (!energy_) return;
   const vielto::Law& law = vielto::law_in_use(lmp, "fix vielto/record energy on");
   if (law.energies.empty())

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/* Stops the run when a grain is lost, and tells which, where it was and how fast. LIGGGHTS' own line tells the number
-   of grains only, and only where the log has a row.
+/* Stops the run when a grain is lost, or its place or velocity is no number any more, and tells which, where it was,
+   how fast and the likely cause. LIGGGHTS' own line tells the number of grains only, and only where the log has a row.
 
      fix ID all vielto/watch every N      looks at every N-th step, and at the start of a run
 
@@ -22,15 +22,17 @@ namespace vielto {
 class GrainWatch : protected LAMMPS_NS::Pointers {
  public:
   explicit GrainWatch(LAMMPS_NS::LAMMPS* program) : Pointers(program) {}
-  // Stops the run if a grain of the last look is gone; `when` stands in brackets behind the step.
+  // Stops the run if a grain of the last look is gone, or is nowhere; `when` stands in brackets behind the step.
   void look(const std::string& when);
   LAMMPS_NS::bigint grains() const { return grains_; }  // of the last look; -1 before the first
 
  private:
-  void stop(LAMMPS_NS::bigint now, const std::string& when);
   struct Place {
-    double x[3], v[3];
+    double x[3], v[3], radius;
   };
+  void stop(LAMMPS_NS::bigint now, const std::string& when);
+  void stop_if_nowhere(const std::string& when);
+  [[noreturn]] void stop_for(int tag, const std::string& what, const std::string& when);
   std::map<int, Place> places_;  // this processor's grains
   LAMMPS_NS::bigint grains_ = -1;
 };

@@ -184,8 +184,8 @@ void FixViEltoRows::end_of_step() {
     const std::string values = row();
     if (file_) {
       const std::string line = std::to_string(update->ntimestep) + values;
-      fprintf(file_, "%s\n", line.c_str());
-      fflush(file_);
+      if (fprintf(file_, "%s\n", line.c_str()) < 0 || fflush(file_) != 0)
+        vielto::stop_here(lmp, ("vielto: cannot write " + path_ + "; check the space left").c_str());
       row_stands(line);
     }
     clear_interval();

@@ -27,6 +27,22 @@ std::vector<std::string> names_on_command_line() {
   return names;
 }
 
+std::string several_values_on_command_line() {
+  std::ifstream in("/proc/self/cmdline", std::ios::binary);
+  std::string name;
+  int values = 0;
+  for (std::string word; std::getline(in, word, '\0');) {
+    if ((word == "-var" || word == "-v") && std::getline(in, name, '\0')) {
+      values = 0;
+    } else if (word.rfind('-', 0) == 0 && !is_number(word)) {
+      name.clear();
+    } else if (!name.empty() && ++values == 2) {
+      return name;
+    }
+  }
+  return "";
+}
+
 std::string script_on_command_line() {
   std::ifstream in("/proc/self/cmdline", std::ios::binary);
   for (std::string word; std::getline(in, word, '\0');)

@@ -14,6 +14,9 @@ std::string command_line();
 // Names given with -var (or -v).
 std::vector<std::string> names_on_command_line();
 
+// The first name that was given several values with -var: LIGGGHTS would take the first one. Empty if there is none.
+std::string several_values_on_command_line();
+
 // The input script: after -in (or -i), or the file on the standard input; empty if there is none.
 std::string script_on_command_line();
 

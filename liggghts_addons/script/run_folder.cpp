@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "script/run_folder.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
-#include <spawn.h>
 #include <stdlib.h>
-#include <sys/wait.h>
+#include <sys/file.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <filesystem>
 #include <fstream>
 #include <regex>
@@ -63,8 +64,23 @@ void remove_older_restarts(const fs::path& partial) {
 
 void write_json(const fs::path& path, const nlohmann::json& content) {
   const fs::path partial = path.string() + ".partial";
-  std::ofstream(partial) << content.dump(2) << '\n';
+  std::ofstream out(partial);
+  out << content.dump(2) << '\n';
+  out.close();
+  if (!out) throw std::runtime_error(fmt::format("{} cannot be written; check the space left", path.string()));
   fs::rename(partial, path);
+}
+
+// A process that runs in a folder holds this file locked until it ends, however it ends.
+const char* const kInUse = "in_use";
+
+void take(const fs::path& partial) {
+  const int file = ::open((partial / kInUse).c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
+  if (file < 0) throw std::runtime_error(fmt::format("cannot write in {}; check its permissions", partial.string()));
+  // a file system without locks refuses otherwise, and has to do without
+  if (::flock(file, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
+    throw std::runtime_error(fmt::format(
+        "another run is at work in {}; wait for its end, or name another folder with -var run", partial.string()));
 }
 
 // Throws if a run was made with other parameters than those that hold now.
@@ -113,9 +129,13 @@ void RunFolder::open(nlohmann::json run) const {
     throw std::runtime_error("the run folder " + folder_ +
                              " is there already; remove it or name another with -var run");
   std::error_code code;
-  fs::remove_all(partial_, code);
-  if (!fs::create_directories(partial_, code))
-    throw std::runtime_error("cannot make the run folder " + partial_ + "; check the path and its permissions");
+  fs::create_directories(partial_, code);
+  if (code) throw std::runtime_error("cannot make the run folder " + partial_ + "; check the path and its permissions");
+  take(partial_);
+  std::vector<fs::path> old;  // of a run that was broken off
+  for (const auto& entry : fs::directory_iterator(partial_))
+    if (entry.path().filename() != kInUse) old.push_back(entry.path());
+  for (const fs::path& path : old) fs::remove_all(path);
   run["schema"] = 1;
   run["status"] = "running";
   write_json(fs::path(partial_) / "run.json", run);
@@ -126,6 +146,7 @@ std::string RunFolder::resume(const Values& parameters) const {
   try {
     std::ifstream in(partial / "run.json");
     if (!in) throw std::runtime_error("it does not exist");
+    take(partial);
     if (!fs::exists(partial / "mesh" / "geometry.par")) throw std::runtime_error("mesh/geometry.par is missing");
     same_parameters(nlohmann::json::parse(in), parameters, {"resume", "run"});
     const std::string newest = newest_restart(partial);
@@ -158,6 +179,7 @@ void RunFolder::close() const {
     run["status"] = "complete";
     remove_older_restarts(partial_);
     write_json(fs::path(partial_) / "run.json", run);
+    fs::remove(fs::path(partial_) / kInUse);
     fs::rename(partial_, folder_);
   } catch (const std::exception& e) {
     throw std::runtime_error(fmt::format("cannot complete the run folder {}: {}", folder_, e.what()));
@@ -168,16 +190,6 @@ std::vector<std::string> script_files(const std::string& script, const Values& v
   std::vector<std::string> files;
   add_files(script, values, files);
   return files;
-}
-
-bool run_program(const std::vector<std::string>& words) {
-  std::vector<char*> arguments;
-  for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
-  arguments.push_back(nullptr);
-  pid_t child = 0;
-  int status = 0;
-  return posix_spawnp(&child, arguments[0], nullptr, nullptr, arguments.data(), environ) == 0 &&
-         waitpid(child, &status, 0) == child && WIFEXITED(status) && WEXITSTATUS(status) == 0;
 }
 
 }  // namespace vielto

@@ -19,7 +19,7 @@ class RunFolder {
   explicit RunFolder(const std::string& folder) : folder_(folder), partial_(folder + ".partial") {}
   const std::string& partial() const { return partial_; }
 
-  // Makes FOLDER.partial anew with run.json. Refuses a folder that is there, and a name that LIGGGHTS cannot read.
+  // Makes FOLDER.partial anew with run.json. Refuses a folder that is there, and one that another process works in.
   void open(nlohmann::json run) const;
   // The newest restart file that is surely whole, of a run broken off with these parameters.
   std::string resume(const std::map<std::string, std::string>& parameters) const;
@@ -37,9 +37,6 @@ class RunFolder {
    A file made in the run folder, and one whose name has an unknown variable, is left out. Errors: BadInput if one
    cannot be read. */
 std::vector<std::string> script_files(const std::string& script, const std::map<std::string, std::string>& values);
-
-// Runs a program and waits for it; true if it ended well. No shell: words may hold blanks.
-bool run_program(const std::vector<std::string>& words);
 
 }  // namespace vielto
 

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "core/par_range.h"
+#include "core/program.h"
 #include "core/sha256.h"
 #include "engine/law.h"
 #include "script/command_line.h"
@@ -74,6 +75,8 @@ void RunSetup::run(int ranks, const char* liggghts) {
 
 // Parameter files, settings NAME=VALUE, conditions and the names that a bed may differ in; then cards and checks.
 void RunSetup::read() {
+  if (const std::string several = several_values_on_command_line(); !several.empty())
+    throw std::runtime_error("-var " + several + " has several values; give one, without blanks");
   std::size_t i = 0;
   const auto is_keyword = [](const std::string& word) { return word == "when" || word == "bed"; };
   for (; i < words_.size() && !is_keyword(words_[i]) && words_[i].find('=') == std::string::npos; i++)
@@ -110,7 +113,9 @@ void RunSetup::read() {
   parameters_.check_values();
   for (const auto& [demand, of] : demands) check_demand(demand, of);
   for (const auto& v : parameters_.all()) {
-    const std::string run = v.stated.name == "run" ? v.now : "";
+    if (v.stated.name != "run") continue;
+    const std::string& run = v.now;
+    if (run.empty()) throw std::runtime_error("run has no name; name the run folder with -var run");
     if (run.find_first_of(" \t'\"$#&*") != std::string::npos)
       throw std::runtime_error("run is '" + run +
                                "': LIGGGHTS reads no folder with blanks or any of '\"$#&* in its "
@@ -192,7 +197,9 @@ void RunSetup::make_mesh(const std::string& folder) const {
       words.push_back("--set");
       words.push_back(v.stated.name + "=" + v.now);
     }
-  if (!run_program(words)) throw std::runtime_error("'vielto geometry' failed; its own line stands above");
+  const int status = run_program(words);
+  if (status == -1) throw std::runtime_error("no program 'vielto' is found; put the folder that holds it into PATH");
+  if (status != 0) throw std::runtime_error("'vielto geometry' failed; its own line stands above");
 }
 
 }  // namespace vielto

@@ -3,6 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <string_view>
+
+#include "core/csv.h"
+
 namespace vielto {
 namespace {
 
@@ -13,6 +17,25 @@ std::string place(const std::string& file, int line, const std::string& column) 
   return text;
 }
 
+// A file's bytes are quoted in refusals; one that is no text must not move the terminal's cursor nor make two lines of
+// one.
+std::string plain(const std::string& text) {
+  std::string result;
+  for (std::size_t i = 0; i < text.size();) {
+    std::size_t length = 1;
+    while (length < 4 && i + length < text.size() && (static_cast<unsigned char>(text[i + length]) & 0xc0) == 0x80)
+      ++length;
+    if (is_plain_utf8(std::string_view(text).substr(i, length))) {
+      result.append(text, i, length);
+    } else {
+      length = 1;
+      result += fmt::format("\\x{:02x}", static_cast<unsigned char>(text[i]));
+    }
+    i += length;
+  }
+  return result;
+}
+
 }  // namespace
 
 BadInput::BadInput(const std::string& file, int line, const std::string& what, const std::string& mend)
@@ -20,6 +43,6 @@ BadInput::BadInput(const std::string& file, int line, const std::string& what, c
 
 BadInput::BadInput(const std::string& file, int line, const std::string& column, const std::string& what,
                    const std::string& mend)
-    : std::runtime_error(fmt::format("{}: {}; {}", place(file, line, column), what, mend)) {}
+    : std::runtime_error(plain(fmt::format("{}: {}; {}", place(file, line, column), what, mend))) {}
 
 }  // namespace vielto

@@ -12,6 +12,10 @@
 namespace vielto {
 namespace {
 
+// No parameter of a run is larger or, but for 0, smaller than these: beyond them it is a slip, and steps cannot be
+// counted any more.
+constexpr double kLeastSize = 1e-15, kMostSize = 1e15;
+
 std::string trimmed(const std::string& text) {
   const auto first = text.find_first_not_of(" \t");
   return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(" \t") - first + 1);
@@ -141,6 +145,8 @@ std::optional<std::string> ParRange::refusal(const std::string& value, const std
                                                               : "";
     return fmt::format("a number ({}{})", hint, unit.empty() ? "1" : unit);
   }
+  if (*number != 0 && !(std::fabs(*number) >= kLeastSize && std::fabs(*number) <= kMostSize))
+    return fmt::format("a number from {:g} to {:g} in size ({})", kLeastSize, kMostSize, unit.empty() ? "1" : unit);
   double least = 0, most = 0;
   const Term* low = tightest(low_, false, lookup, least);
   const Term* high = tightest(high_, true, lookup, most);

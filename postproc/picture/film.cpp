@@ -4,11 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <stdexcept>
 
 #include "core/bad_input.h"
+#include "core/program.h"
 
 namespace vielto {
 namespace {
@@ -19,16 +19,17 @@ constexpr double kSeconds = 4;  // of a film
 constexpr double kSlowest = 6;  // pictures a second
 constexpr const char* kWidth = "960";
 
-std::string quoted(const std::string& text) {
-  std::string out = "'";
-  for (const char c : text) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return out + "'";
+// % in a name would be taken for a number by ffmpeg.
+std::string literal(const std::string& text) {
+  std::string out;
+  for (const char c : text) out += c == '%' ? std::string("%%") : std::string(1, c);
+  return out;
 }
 
 }  // namespace
 
 void need_film_program() {
-  if (std::system("ffmpeg -version >/dev/null 2>&1") != 0)
+  if (run_program({"ffmpeg", "-version"}, {"", "/dev/null"}) != 0)
     throw BadInput("ffmpeg", 0, "is not there: it joins the pictures of a film", "install the package ffmpeg");
 }
 
@@ -47,12 +48,30 @@ std::string Film::next_frame() { return fmt::format("{}/{:05d}.png", folder_, fr
 void Film::finish() {
   const double rate = std::max(kSlowest, frames_ / kSeconds);
   const std::string partial = path_ + ".partial";
-  const std::string command = fmt::format(
-      "ffmpeg -nostdin -loglevel error -y -framerate {:.3f} -i {} "
-      "-vf scale={}:-2 -c:v libvpx-vp9 -crf 36 -b:v 0 -pix_fmt "
-      "yuv420p -an -f webm {}",
-      rate, quoted(folder_ + "/%05d.png"), kWidth, quoted(partial));
-  if (std::system(command.c_str()) != 0) {
+  // file: what stands before a name that is none of ffmpeg's protocols
+  if (run_program({"ffmpeg",
+                   "-nostdin",
+                   "-loglevel",
+                   "error",
+                   "-y",
+                   "-framerate",
+                   fmt::format("{:.3f}", rate),
+                   "-i",
+                   "file:" + literal(folder_) + "/%05d.png",
+                   "-vf",
+                   fmt::format("scale={}:-2", kWidth),
+                   "-c:v",
+                   "libvpx-vp9",
+                   "-crf",
+                   "36",
+                   "-b:v",
+                   "0",
+                   "-pix_fmt",
+                   "yuv420p",
+                   "-an",
+                   "-f",
+                   "webm",
+                   "file:" + partial}) != 0) {
     fs::remove(partial);
     throw std::runtime_error(path_ + ": ffmpeg could not join the pictures; its message stands above");
   }

@@ -6,17 +6,16 @@
 #include <vtkRenderWindow.h>
 #include <vtkWindowToImageFilter.h>
 
-#include <cstdlib>
 #include <filesystem>
 #include <stdexcept>
 
 #include "core/bad_input.h"
+#include "picture/display.h"
 
 namespace vielto {
 
 void need_display() {
-  const char* display = std::getenv("DISPLAY");
-  if (!display || !*display)
+  if (!has_display())
     throw BadInput("--pictures", 0, "there is no display to draw with", "run the same command under 'xvfb-run -a'");
 }
 

@@ -261,6 +261,41 @@ TEST_F(Report, OfADiagnosisShowsVerdictMapAndBands) {
   EXPECT_EQ(count(err_, "\n"), 1u) << err_;
 }
 
+// Names from files are text wherever they stand: in the page, and in the data of its plots, which a script element
+// holds.
+TEST_F(Report, NamesThatWouldBeMarkupAreText) {
+  make_diagnosis("answer");
+  json d = json::parse(text_of(folder_ / "answer/diagnosis.json"));
+  const std::string name = "<!--<script>alert(1)</script>";
+  for (auto& point : d["points"]) point["test"] = name + point["test"].get<std::string>();
+  d["sentence"] = "There is a gap " + name;
+  d["notes"] = {name};
+  write("answer/diagnosis.json", d.dump());
+  write("answer/" + std::string("<b>.csv"), "a,b\n1,2\n3,4\n");
+  ASSERT_EQ(report("answer"), 0) << err_;
+  const std::string page = text_of(folder_ / "answer/report/report.html");
+  EXPECT_EQ(count(page, "<!--<script"), 0u);
+  EXPECT_EQ(count(page, "alert(1)</script>"), 0u);
+  EXPECT_EQ(count(page, "<b>"), 0u);
+  EXPECT_GE(count(page, "&lt;script&gt;alert"), 1u);
+  const std::string open = "id=\"plots\">";
+  const auto from = page.find(open) + open.size();
+  ASSERT_NE(page.find(open), std::string::npos);
+  const std::string plots = page.substr(from, page.find('<', from) - from);
+  EXPECT_EQ(page.compare(from + plots.size(), 9, "</script>"), 0);
+  EXPECT_FALSE(json::parse(plots).empty());
+}
+
+// Whoever walks through JSON calls himself for each level: a million of them would leave no stack.
+TEST_F(Report, RefusesJsonThatNestsTooDeep) {
+  write("deep/result.json", std::string(1000000, '['));
+  EXPECT_EQ(report("deep"), 2);
+  EXPECT_NE(err_.find("deep/result.json: nests deeper than 100 levels"), std::string::npos) << err_;
+  EXPECT_FALSE(fs::exists(folder_ / "deep/report"));
+  write("deep/result.json", std::string(99, '[') + "1" + std::string(99, ']'));
+  EXPECT_EQ(report("deep"), 0) << err_;
+}
+
 TEST_F(Report, RefusesInOneLineAndLeavesNothing) {
   make_run("run");
   fs::create_directories(folder_ / "empty");

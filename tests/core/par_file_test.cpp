@@ -82,6 +82,13 @@ TEST(ParRange, RefusesWhatIsNoNumber) {
   for (const char* text : {"1", "-1.5", "+2", "1e-3", ".5", "2E5"}) EXPECT_EQ(asked("any", text), "good") << text;
 }
 
+// An integer of steps, of rows or of grains made of such a number is none.
+TEST(ParRange, RefusesNumbersOfNoPhysicalSize) {
+  for (const char* text : {"1.8e308", "1e300", "-1e300", "1.1e15", "1e-300", "-9e-16"})
+    EXPECT_EQ(asked("any", text), "a number from 1e-15 to 1e+15 in size (m)") << text;
+  for (const char* text : {"1e15", "-1e15", "1e-15", "0", "-0"}) EXPECT_EQ(asked("any", text), "good") << text;
+}
+
 TEST(ParRange, RefusesWhatIsNoRange) {
   for (const char* text : {"0", "positive", "> x y", "0 to", "to 1", ">= 0 to 1", "0 to 1 2", "> 0 to ", "whole"})
     EXPECT_THROW(ParRange::parse(text), std::invalid_argument) << text;

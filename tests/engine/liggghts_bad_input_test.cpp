@@ -160,6 +160,16 @@ TEST(TimeStepOfAnOwnScript, OverATenthOfTheHalfPeriodIsWarnedOf) {
   }
 }
 
+TEST(GrainWatch, NamesAGrainWhoseVelocityIsNoNumber) {
+  const Material m;
+  const Sphere one{1, 0.005, 1375, {0.01, 0, 0}, Vec::Zero(), Vec::Zero()};
+  Liggghts run;
+  run.script = head(run, {one}, {m}, 0.1) +
+               "variable bad equal exp(1000)-exp(1000)\ntimestep 1e-6\nfix move all nve/sphere\n"
+               "fix watch all vielto/watch every 1\nrun 1\nvelocity all set v_bad 0 0\nrun 1\n";
+  expect_error(run, {"step 1 (start of a run)", "velocity of grain 1 is no number", "it was at (0.01 ", "likely"});
+}
+
 struct Line {
   const char* name;
   const char* models;

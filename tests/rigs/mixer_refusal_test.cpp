@@ -52,6 +52,12 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"UncertaintyOfNothing",
                 "-var powerUncertainty 0.02 -var turns 9 -var fill 0",
                 {"without grain", "powerUncertainty"}},
+        Refusal{"TurnsWithoutEnd", "-var turns 1e14", {"more steps", "lower turns"}},
+        Refusal{"TurnsBeyondNumbers", "-var turns 1e300", {"turns is 1e300", "from 1e-15 to 1e+15 in size"}},
+        Refusal{"GrainOfNoSize", "-var grainDiameter 1e-300", {"grainDiameter is 1e-300", "in size (m)"}},
+        Refusal{"StiffnessBeyondNumbers", "-var youngsModulus 1e308", {"youngsModulus is 1e308", "in size (Pa)"}},
+        Refusal{"TwoValues", "-var fill 0.1 0.2", {"-var fill has several values"}},
+        Refusal{"FolderOfTwoWords", "-var materials my cards -var speed 1", {"-var materials has several values"}},
         Refusal{"SeedOfHalves", "-var seed 1.5", {"seed is 1.5", "whole number"}},
         Refusal{"UnknownGrain", "-var grain moon_dust", {"materials/moon_dust.par", "cannot be read"}},
         Refusal{"UnknownWall", "-var wall moon_rock", {"materials/moon_rock.par", "cannot be read"}},
@@ -95,6 +101,22 @@ TEST(MixerRefusesCard, OnTwoRanksWithOneLineToo) {
                  {"moon_dust.par", "cannot be read"});
 }
 
+TEST(MixerRefusesFolder, WithoutAName) {
+  Mixer mixer;
+  const Outcome run =
+      mixer.shell(fmt::format("cd '{}/cases/mixer' && PATH='{}':$PATH {} -log none -in in.mixer -var run ''",
+                              VIELTO_SOURCE_DIR, VIELTO_BIN_DIR, mixer.command(1, Program::ours)));
+  expect_refusal(mixer.folder / "run", run, {"run has no name"});
+}
+
+TEST(MixerRefusesPath, WithoutOurProgram) {
+  Mixer mixer;
+  const Outcome run =
+      mixer.shell(fmt::format("cd '{}/cases/mixer' && PATH=/usr/bin:/bin {} -log none -in in.mixer -var run '{}'",
+                              VIELTO_SOURCE_DIR, mixer.command(1, Program::ours), (mixer.folder / "run").string()));
+  expect_refusal(mixer.folder / "run", run, {"no program 'vielto' is found", "PATH"});
+}
+
 TEST(MixerRefusesFolder, ThatIsThereAlready) {
   Mixer mixer;
   fs::create_directory(mixer.folder / "run");
@@ -127,8 +149,9 @@ TEST(MixerRefusesLoss, OfAGrain) {
   Mixer mixer;
   const Outcome outcome = mixer.mixer(
       "run", two, "-var speed 20 -var turns 2 -var maxOverlap 0 -var youngsModulus 2e4 -var wall_youngsModulus 2e4");
-  expect_refusal(mixer.folder / "run", outcome,
-                 {"step", "178 of 179 grains are there; grain ", "was lost", "velocity"});
+  expect_refusal(
+      mixer.folder / "run", outcome,
+      {"step", "178 of 179 grains are there; grain ", "was lost", "velocity", "of its radius a step; likely "});
 }
 
 // Softer still: they fall through the drum before the rotor turns.
@@ -137,5 +160,6 @@ TEST(MixerRefusesLoss, OfAGrainWhileFilling) {
   const Outcome outcome =
       mixer.mixer("run", two, "-var maxOverlap 0 -var youngsModulus 100 -var wall_youngsModulus 100");
   expect_refusal(mixer.folder / "run", outcome,
-                 {"step", "every 1000 steps", "of 179 grains are there; grain ", "was lost", "velocity"});
+                 {"step", "every 1000 steps", "of 179 grains are there; grain ", "was lost", "velocity",
+                  "likely a wall let it through"});
 }

@@ -3,6 +3,7 @@
 import argparse
 import os
 import pathlib
+import re
 import shutil
 import signal
 import subprocess
@@ -53,6 +54,10 @@ def work(options):
         raise BadInput(f"no run of {table} ends in {options.only}; --only takes the end of runs' names")
     options.bin = options.bin or programs()
     out = (options.out or ROOT / "results/studies" / table.stem).resolve()
+    if re.search(r"[\s'\"$#&*{}]", str(out)):
+        raise BadInput(
+            f"{out}: LIGGGHTS reads no folder with blanks or any of '\"$#&* in its name; state another with --out"
+        )
     make_ready(known, out, points, options.again)
     status = run_all(known, out, points, options, table)
     missing = finished.gather(known, out, every) & {p["run"] for p in points}
