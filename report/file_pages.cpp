@@ -5,11 +5,11 @@
 
 #include <algorithm>
 #include <cctype>
-#include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
 
 #include "core/bad_input.h"
+#include "core/json_file.h"
 #include "core/reduced_table.h"
 #include "core/statistics.h"
 #include "report/data_file.h"
@@ -138,11 +138,7 @@ void add_csv(const std::string& path, const std::string& name, bool plot_powers,
 }
 
 void add_json(const std::string& path, const std::string& name, Page& page) {
-  try {
-    page.sections.push_back({name, {json_table(json::parse(std::ifstream(path)))}});
-  } catch (const json::exception& error) {
-    throw BadInput(path, 0, fmt::format("is no JSON ({})", error.what()), "make the file again");
-  }
+  page.sections.push_back({name, {json_table(read_json_file(path, "make the file again"))}});
 }
 
 }  // namespace vielto

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/bad_input.h"
+#include "core/json_file.h"
 #include "core/mixing_numbers.h"
 #include "core/steady_part.h"
 #include "report/data_file.h"
@@ -207,7 +208,7 @@ std::optional<PowerPoint> add_run(RunOfReport& run, bool alone, Page& page) {
   if (fs::exists(post / "power.json")) {
     const std::string path = use(post / "power.json");
     try {
-      power = json::parse(std::ifstream(path));
+      power = read_json_file(path, "evaluate the run again");
       if (record.header.rig == "mixer") point = power_point(*power, path, run.name);
       if (alone) add_alone(*power, page);
       for (const json& warning : power->at("quality").at("warnings")) {

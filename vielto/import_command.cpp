@@ -15,6 +15,7 @@
 
 #include "commands.h"
 #include "core/bad_input.h"
+#include "core/lone_value.h"
 #include "core/mixing_numbers.h"
 #include "core/observation_table.h"
 #include "core/steady_part.h"
@@ -82,6 +83,10 @@ SteadyTorque steady_torque(const ImportOptions& o, const std::string& path) {
   fmt::print("{}: {} whole turns of {:.0f} samples, {} averaged from turn {} on; torque {:.6g} N m, u {:.2g} N m\n",
              path, sampled.turns, sampled.samples_per_turn, result.turns.count, result.turns.first + 1,
              result.mean.mean, result.mean.u);
+  const auto from = sampled.signal.begin() + static_cast<std::ptrdiff_t>(result.turns.first) * kPhases;
+  if (const auto lone = lone_value({from, from + static_cast<std::ptrdiff_t>(result.turns.count) * kPhases}))
+    fmt::print("note: the torque near turn {:.2f} alone moves the mean from {:.4g} to {:.4g} N m: look at these rows\n",
+               result.turns.first + static_cast<double>(lone->index) / kPhases, lone->without, lone->mean);
   if (result.mean.effective_samples < kFewSamples)
     fmt::print("note: only {:.1f} effective samples, u is itself uncertain\n", result.mean.effective_samples);
   result.signal = sampled.signal;

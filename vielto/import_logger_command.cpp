@@ -19,6 +19,7 @@
 #include "core/mixing_numbers.h"
 #include "core/observation_table.h"
 #include "import/logger_record.h"
+#include "picture/display.h"
 
 namespace vielto {
 namespace {
@@ -60,11 +61,15 @@ Averaged averaged(const LoggerOptions& o, const std::string& path, const LoggerC
 
 void show(const LoggerOptions& o, const Averaged& a) {
   const std::filesystem::path path(a.record.path);
-  const std::string picture = fmt::format("{}.{}.png", stem_of(o.out), path.stem().string());
-  draw_logger(a.record, a.m, fmt::format("{}, {}", o.columns.value, o.unit), picture);
+  std::string picture = fmt::format("{}.{}.png", stem_of(o.out), path.stem().string());
+  if (has_display())
+    draw_logger(a.record, a.m, fmt::format("{}, {}", o.columns.value, o.unit), picture);
+  else
+    picture = "no picture, there is no display to draw with: run the command under 'xvfb-run -a'";
   fmt::print("{}: {} samples, {:.4g} s apart; averaged from {:.5g} to {:.5g} s: {:.6g} {}, u {:.2g}; {}\n",
              a.record.path, a.record.time.size(), a.m.interval, a.m.from, a.m.to, a.m.mean.mean, o.unit, a.m.mean.u,
              picture);
+  if (!a.m.lone.empty()) fmt::print("note: {}: look at it\n", a.m.lone);
   if (a.m.mean.effective_samples < 10)
     fmt::print("note: only {:.1f} effective samples, u is itself uncertain: record longer\n",
                a.m.mean.effective_samples);

@@ -5,9 +5,9 @@
 
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 
 #include "core/bad_input.h"
+#include "core/json_file.h"
 #include "core/par_file.h"
 #include "core/rig_table.h"
 
@@ -73,8 +73,7 @@ std::string changed_file(const nlohmann::json& run, const std::map<std::string, 
 }
 
 nlohmann::json read_json(const std::string& path) {
-  std::ifstream in(path);
-  nlohmann::json j = nlohmann::json::parse(in, nullptr, false);
+  nlohmann::json j = read_json_file(path, "make the run again");
   if (!j.is_object()) throw BadInput(path, 0, "is no JSON object", "make the run again");
   return j;
 }

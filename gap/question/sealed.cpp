@@ -4,9 +4,9 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <fstream>
 
 #include "core/bad_input.h"
+#include "core/json_file.h"
 #include "core/seal.h"
 
 namespace vielto::gap {
@@ -43,8 +43,7 @@ json isolability_json(const Question& question, const Isolability& i, const Thre
 
 json read_sealed(const std::string& path) {
   if (!seal_holds(path)) throw BadInput(path, 0, "is not what its seal says", "bring the sealed file back");
-  std::ifstream in(path);
-  json j = json::parse(in, nullptr, false);
+  json j = read_json_file<json>(path, "make it with vielto gap isolability");
   if (!j.is_object() || !j.contains("threshold") || !j["threshold"].is_object())
     throw BadInput(path, 0, "is no isolability.json", "make it with vielto gap isolability");
   return j;

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/bad_input.h"
+#include "core/net_power.h"
 
 namespace vielto {
 namespace {
@@ -53,10 +54,7 @@ ReducedTable read_reduced_table(const std::string& path) {
       if (idle < 0)
         throw BadInput(path, line, "observable", "power_loaded stands without power_idle",
                        "add the idling power of the test, or state its power");
-      Observation power = row;
-      power.observable = "power";
-      power.value -= read[idle].value;
-      const int k = keep(power, line);
+      const int k = keep(net_power(path, line, row, read[idle]), line);
       map.emplace_back(k, i, 1);
       map.emplace_back(k, idle, -1);
       continue;

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/condition.h"
+#include "core/rig_file.h"
 #include "core/toml_table.h"
 
 namespace vielto {
@@ -135,7 +136,16 @@ std::string RigDescription::path(const std::string& stated, const std::string& r
 
 const std::vector<RigDescription>& apparatuses() { return table().apparatuses; }
 
-void add_rigs(const std::string& path) { add_tables(table(), TomlTable::read(path), path); }
+std::vector<RigDescription> read_rigs(const std::string& path) {
+  Table with = table();
+  const auto before = static_cast<std::ptrdiff_t>(with.apparatuses.size());
+  add_tables(with, TomlTable::read(path), path);
+  return {with.apparatuses.begin() + before, with.apparatuses.end()};
+}
+
+void add_rigs(const std::string& path) {
+  for (RigDescription& rig : read_rigs(path)) table().apparatuses.push_back(std::move(rig));
+}
 
 const RigDescription* find_apparatus(const std::string& name) {
   for (const RigDescription& r : apparatuses())

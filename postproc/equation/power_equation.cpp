@@ -5,11 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
 
 #include "core/bad_input.h"
+#include "core/json_file.h"
 #include "core/mixing_numbers.h"
 #include "core/statistics.h"
 
@@ -114,7 +114,9 @@ PowerData power_data(const std::vector<ReducedTable>& tables, const std::vector<
       };
       need("speed", o.speed.value_or(0) > 0);
       need("fill", o.fill.value_or(0) > 0);
-      need("value", o.value > 0);
+      if (!(o.value > 0))
+        throw BadInput(table.path, line, "value", fmt::format("the grain's power is {:.6g} W", o.value),
+                       "a power law needs it above 0; leave the row out of the fit");
       const BulkMaterial& grain = grain_of(o, materials, only, table.path, line);
       const PowerRow row{table.path, line,
                          o,          mixer,
@@ -183,10 +185,9 @@ json to_json(const Equation& e) {
 }
 
 Equation read_equation(const std::string& path) {
-  std::ifstream in(path);
-  if (!in) throw BadInput(path, 0, "cannot be read", "name the file that `vielto fit --out` wrote");
+  const json file = read_json_file(path, "name the file that `vielto fit --out` wrote");
   try {
-    const json j = json::parse(in).at("prediction");
+    const json& j = file.at("prediction");
     Equation e;
     const auto number = j.at("number").get<std::string>();
     if (number != "N_PC" && number != "N_P") throw std::invalid_argument("number is neither N_PC nor N_P");

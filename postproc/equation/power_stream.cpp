@@ -11,6 +11,7 @@
 #include <stdexcept>
 
 #include "core/bad_input.h"
+#include "core/net_power.h"
 #include "core/mixing_numbers.h"
 
 namespace vielto {
@@ -27,13 +28,7 @@ std::optional<NumberedObservation> power_of(const std::string& path, const std::
     if (o.row.observable == "power_loaded") loaded = &o;
     if (o.row.observable == "power_idle") idle = &o;
   }
-  if (loaded && idle) {
-    NumberedObservation difference = *loaded;
-    difference.row.observable = "power";
-    difference.row.value -= idle->row.value;
-    difference.row.u = std::hypot(loaded->row.u, idle->row.u);
-    return difference;
-  }
+  if (loaded && idle) return NumberedObservation{net_power(path, loaded->line, loaded->row, idle->row), loaded->line};
   if (power) return *power;
   if (loaded)
     throw BadInput(path, loaded->line, "observable", "power_loaded stands without power_idle",

@@ -4,14 +4,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
-#include <cstdio>
 #include <fstream>
 #include <limits>
 #include <numeric>
 
 #include "core/bad_input.h"
 #include "core/csv.h"
+#include "core/lone_value.h"
 #include "core/steady_part.h"
 
 namespace vielto {
@@ -66,16 +67,30 @@ struct ClockTime {
   std::optional<long> day;  // since 1970
 };
 
+// The whole number of one to `most` digits that `text` begins with, which goes from it.
+std::optional<int> take_digits(std::string& text, std::size_t most) {
+  std::size_t n = 0;
+  while (n < text.size() && std::isdigit(static_cast<unsigned char>(text[n]))) ++n;
+  if (n == 0 || n > most) return std::nullopt;
+  const int value = std::stoi(text.substr(0, n));
+  text.erase(0, n);
+  return value;
+}
+
 std::optional<ClockTime> clock_time(std::string text) {
   std::replace(text.begin(), text.end(), ',', '.');
   const std::size_t colon = text.find(':');
   if (colon == std::string::npos || colon == 0) return std::nullopt;
   std::size_t clock = colon;
   while (clock > 0 && std::isdigit(static_cast<unsigned char>(text[clock - 1]))) --clock;
-  int hour = 0, minute = 0, read = 0;
   double second = 0;
-  if (std::sscanf(text.c_str() + clock, "%d:%d%n", &hour, &minute, &read) != 2) return std::nullopt;
-  std::string rest = text.substr(clock + static_cast<std::size_t>(read));
+  std::string rest = text.substr(clock);
+  const std::optional<int> hours = take_digits(rest, 2);
+  rest.erase(0, 1);
+  const std::optional<int> minutes = take_digits(rest, 2);
+  if (!hours || !minutes) return std::nullopt;
+  int hour = *hours;
+  const int minute = *minutes;
   if (!rest.empty() && rest[0] == ':') {
     std::size_t end = 1;
     while (end < rest.size() && (std::isdigit(static_cast<unsigned char>(rest[end])) || rest[end] == '.')) ++end;
@@ -96,11 +111,19 @@ std::optional<ClockTime> clock_time(std::string text) {
   std::string date = trimmed(text.substr(0, clock));
   if (!date.empty() && (date.back() == 'T' || date.back() == '.')) date.pop_back();
   if (date.empty()) return time;
-  int a = 0, b = 0, c = 0, used = 0;
-  char one = 0, two = 0;
-  if (std::sscanf(date.c_str(), "%d%c%d%c%d%n", &a, &one, &b, &two, &c, &used) != 5 || one != two ||
-      static_cast<std::size_t>(used) != date.size())
-    return std::nullopt;
+  const auto mark = [&date]() -> char {
+    if (date.empty()) return 0;
+    const char c = date.front();
+    date.erase(0, 1);
+    return c;
+  };
+  const auto first = take_digits(date, 4);
+  const char one = mark();
+  const auto second_number = take_digits(date, 4);
+  const char two = mark();
+  const auto third = take_digits(date, 4);
+  if (!first || !second_number || !third || one != two || !date.empty()) return std::nullopt;
+  const int a = *first, b = *second_number, c = *third;
   const bool year_first = a > 31, month_first = one == '/' && !year_first;  // 2024-05-01; 5/1/2024; 01.05.2024
   const int year = year_first ? a : c, month = year_first || !month_first ? b : a,
             day = year_first    ? c
@@ -240,8 +263,30 @@ LoggerRecord read_logger(const std::string& path, const LoggerColumns& c) {
   return record;
 }
 
+namespace {
+
+// Of the samples from `from` to `to`.
+std::string lone_sample(const LoggerRecord& r, double from, double to) {
+  std::vector<double> inside;
+  std::vector<int> lines;
+  for (std::size_t i = 0; i < r.time.size(); ++i)
+    if (r.time[i] >= from && r.time[i] <= to) {
+      inside.push_back(r.value[i]);
+      lines.push_back(r.lines[i]);
+    }
+  const auto lone = lone_value(inside);
+  return lone ? fmt::format("line {}, {:.6g}, alone moves the mean from {:.4g} to {:.4g}", lines[lone->index],
+                            inside[lone->index], lone->without, lone->mean)
+              : "";
+}
+
+}  // namespace
+
 LoggerMean logger_mean(const LoggerRecord& r, const LoggerColumns& c) {
   const double begin = c.from.value_or(0), end = c.to.value_or(r.time.back());
+  if (end > r.time.back() * (1 + 1e-9))
+    throw BadInput(r.path, 0, fmt::format("ends at {:.6g} s, before the {:.6g} s asked for", r.time.back(), end),
+                   "give an earlier --to");
   std::vector<double> steps;
   for (std::size_t i = 1; i < r.time.size(); ++i) steps.push_back(r.time[i] - r.time[i - 1]);
   const std::size_t inside = static_cast<std::size_t>(
@@ -274,16 +319,21 @@ LoggerMean logger_mean(const LoggerRecord& r, const LoggerColumns& c) {
   int first = 0;
   if (!c.from) {
     const SteadyPart part = find_steady_part(even, block, kBlocks / 4);
-    if (part.verdict != Steadiness::steady)
+    if (part.verdict != Steadiness::steady) {
+      const std::string lone = lone_sample(r, begin, end);
       throw BadInput(
           r.path, 0, c.value,
-          part.verdict == Steadiness::trend ? "drifts to its end" : "is not steady: its start reaches too far",
-          "record longer, or state the part to average with --from and --to");
+          (part.verdict == Steadiness::trend ? "drifts to its end" : "is not steady: its start reaches too far") +
+              (lone.empty() ? "" : "; " + lone),
+          lone.empty() ? "record longer, or state the part to average with --from and --to"
+                       : "look at that line, or state the part to average with --from and --to");
+    }
     first = part.first * block;
   }
   result.mean = mean_uncertainty(std::vector<double>(even.begin() + first, even.end()), 1);
   result.from = start + first * result.interval;
   result.to = start + static_cast<double>(even.size() - 1) * result.interval;
+  result.lone = lone_sample(r, result.from, result.to);
   return result;
 }
 

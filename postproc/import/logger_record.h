@@ -11,10 +11,11 @@
 //
 // Mean: samples are put on an even grid by linear interpolation, so that a lost sample weighs nothing; the steady part
 // is found on kBlocks block means (steady_part.h), the uncertainty is that of an autocorrelated mean
-// (mean_uncertainty.h).
+// (mean_uncertainty.h). A sample that alone moves the mean is named.
 //
 // Errors: BadInput with file, line and column for no such column, a field that is no number or time, times that do not
-// rise, a gap of over kWidestGap sampling intervals in the part asked for, too few samples, no steady part.
+// rise, a gap of over kWidestGap sampling intervals in the part asked for, a part that reaches over the record's end,
+// too few samples, no steady part.
 #pragma once
 
 #include <optional>
@@ -45,6 +46,7 @@ struct LoggerMean {
   MeanUncertainty mean;     // unit of the column
   double from = 0, to = 0;  // s, of the part averaged
   double interval = 0;      // s, median of the sampling
+  std::string lone;         // the line of a sample that alone moves the mean, in words; empty if there is none
 };
 
 LoggerRecord read_logger(const std::string& path, const LoggerColumns& columns);

@@ -14,6 +14,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 
 #include "core/bad_input.h"
 #include "import/column_text.h"
@@ -50,6 +51,11 @@ std::vector<Grain> read_vtk(const std::string& path) {
 }
 
 std::vector<Grain> read_text(const std::string& path) {
+  std::string first;
+  std::getline(std::ifstream(path, std::ios::binary), first);
+  if (first.rfind("# vtk DataFile", 0) == 0)
+    throw BadInput(path, 1, "is a VTK file of the legacy format",
+                   "save it as .vtu or .vtp (ParaView: File, Save Data), or as text of x y z r");
   const ColumnText text = read_column_text(path);
   const std::size_t x = text.column("x"), y = text.column("y"), z = text.column("z"), r = text.column("r");
   std::vector<Grain> grains;

@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "core/bad_input.h"
+#include "core/lone_value.h"
 #include "core/mixing_numbers.h"
 #include "core/steady_part.h"
 
@@ -38,17 +39,15 @@ void check_idle(const TorqueRecord& record, const AveragedTurns& turns) {
 std::string lone_interval(const TorqueRecord& r, const Signal& rotor, const AveragedTurns& turns) {
   const auto begin = rotor.begin() + static_cast<std::ptrdiff_t>(turns.first) * kPhases;
   const auto end = begin + static_cast<std::ptrdiff_t>(turns.count) * kPhases;
-  const double n = static_cast<double>(end - begin), mean = std::accumulate(begin, end, 0.0) / n;
-  const auto lone =
-      std::max_element(begin, end, [mean](double a, double b) { return std::fabs(a - mean) < std::fabs(b - mean); });
-  const double without = (mean * n - *lone) / (n - 1);
-  if (!(std::fabs(mean - without) > kMostLoneShare * std::fabs(without))) return "";
-  const double turn = r.first_turn + static_cast<double>(lone - rotor.begin()) / kPhases * r.turns_per_block;
+  const std::vector<double> averaged(begin, end);
+  const std::optional<LoneValue> lone = lone_value(averaged);
+  if (!lone) return "";
+  const double turn = r.first_turn + (turns.first + static_cast<double>(lone->index) / kPhases) * r.turns_per_block;
   return fmt::format(
       "the torque near turn {:.2f} (step {:.0f}), {:.4g} N m, alone moves the mean torque from {:.4g} to {:.4g} N m: "
       "look "
       "at these rows",
-      turn, r.start_step + turn * r.header.steps_per_turn, *lone, without, mean);
+      turn, r.start_step + turn * r.header.steps_per_turn, averaged[lone->index], lone->without, lone->mean);
 }
 
 RunQuality run_quality(const TorqueRecord& r, const AveragedTurns& turns, const MeanUncertainty& torque,

@@ -36,7 +36,6 @@ constexpr double kScaleUncertainty = 0.05;     // relative
 constexpr double kMostEnergyGap = 0.01;        // of the work
 constexpr double kMostSpeedDifference = 1e-3;  // loaded to idling record
 constexpr double kMostMassDifference = 0.02;   // of the mass asked for; a run of few large grains is half a grain off
-constexpr double kMostLoneShare = 0.05;        // of the mean, by one of kPhases intervals of one turn
 constexpr double kFewSamples = 10;             // effective samples below which u is uncertain itself
 
 // The turns averaged: `first` of the record's whole turns left out, `count` kept.

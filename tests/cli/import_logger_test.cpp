@@ -191,7 +191,46 @@ TEST_F(ImportLogger, AveragesThePartAskedFor) {
   EXPECT_NEAR(rows("a.txt --value-column P --time-column t --from 20 --to 39.95").at(0).value, sum / 200, 1e-9);
 }
 
+// One sample of 10 kW in the steady half moves the mean of some 1200 by (10000 - 1200)/1200 W; of 10^6 W by 832 W. The
+// first is below the limit of 5 % and said nothing of, the second named with its line.
+TEST_F(ImportLogger, ASampleThatAloneMovesTheMeanIsNamed) {
+  values_[800] = 10000;
+  write("a.txt", plain());
+  EXPECT_EQ(run("a.txt --value-column P --time-column t").text.find("alone moves"), std::string::npos);
+  values_[800] = 1e6;
+  write("a.txt", plain());
+  const Outcome steady = run("a.txt --value-column P --time-column t --from 20 --to 119");
+  EXPECT_EQ(steady.status, 0) << steady.text;
+  EXPECT_NE(steady.text.find("note: line 802, 1e+06, alone moves the mean from 120"), std::string::npos) << steady.text;
+  fs::remove(folder_ / "o.csv");
+  EXPECT_NE(refusal("a.txt --value-column P --time-column t").find("line 802, 1e+06, alone moves"), std::string::npos);
+}
+
+// VTK ends the program where no X server answers.
+TEST_F(ImportLogger, WithoutADisplayTheTableIsWritten) {
+  write("a.txt", plain());
+  const std::string options = " --test t --out o.csv a.txt --value-column P --time-column t > out.txt 2>&1";
+  for (const std::string display : {"env -u DISPLAY ", "DISPLAY=:98765 "}) {
+    const std::string command =
+        "cd " + folder_.string() + " && " + display + VIELTO_BIN_DIR "/vielto import logger" + options;
+    EXPECT_EQ(std::system(command.c_str()), 0);
+    EXPECT_EQ(vielto::read_observations((folder_ / "o.csv").string()).size(), 1u);
+    EXPECT_FALSE(fs::exists(folder_ / "o.a.png"));
+    fs::remove(folder_ / "o.csv");
+  }
+}
+
 TEST_F(ImportLogger, BadInputIsOneLine) {
+  for (const char* time :
+       {"10:-5", "10:+5:00", "99999999999:00", "1-2-99999999999 10:00", "-2147483648-1-1 10:00", "10:", ":10"}) {
+    write("clock.txt", "t\tP\n10:00:00\t1\n" + std::string(time) + "\t1\n");
+    EXPECT_NE(refusal("clock.txt --value-column P --time-column t").find("clock.txt, line 3, column t"),
+              std::string::npos)
+        << time;
+  }
+  write("short.txt", plain());
+  EXPECT_NE(refusal("short.txt --value-column P --time-column t --from 1 --to 1e12").find("ends at 119.9 s"),
+            std::string::npos);
   const std::string options = " --value-column P --time-column t";
   EXPECT_NE(refusal("none.txt" + options).find("none.txt: cannot be read"), std::string::npos);
   write("a.txt", plain());

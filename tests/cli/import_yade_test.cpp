@@ -265,6 +265,20 @@ TEST_F(ImportYade, RefusesNumbersThatCouldBeReadTwoWays) {
   refuses(torque_, "plot.txt, line 2: has 1 numbers for 2 columns");
 }
 
+// 400 samples of 2 N m and one of 200: the phase of 1/72 turn that holds it has a share of 1/576 of eight turns.
+TEST_F(ImportYade, ARowThatAloneMovesTheMeanIsNamed) {
+  YadePlot plot;
+  plot.noise = 0;
+  std::string text = plot.text();
+  const auto at = text.find('\n', text.size() / 2) + 1, end = text.find('\n', at);
+  std::string row = text.substr(at, end - at);
+  row.replace(row.find('\t') + 1, row.rfind('\t') - row.find('\t') - 1, "2000");
+  write("plot.txt", text.replace(at, end - at, row));
+  ASSERT_EQ(import(torque_), 0) << err_;
+  EXPECT_NE(content(folder_ / "out.txt").find("note: the torque near turn 4."), std::string::npos)
+      << content(folder_ / "out.txt");
+}
+
 TEST_F(ImportYade, RefusesBadInputInOneLine) {
   const std::string good = YadePlot().text();
   write("plot.txt", good);
@@ -298,6 +312,8 @@ TEST_F(ImportYade, RefusesBadInputInOneLine) {
   refuses(torque_, "line 1: begins with numbers");
   write("plot.txt", std::string("BZh9\x31\x41\x59\x00", 8));
   refuses(torque_, "is no text; unpack it first");
+  write("grains.vtk", "# vtk DataFile Version 2.0\nx\nASCII\nDATASET POLYDATA\nPOINTS 1 float\n0 0 0\n");
+  refuses("--bed grains.vtk --angle drum", "grains.vtk, line 1: is a VTK file of the legacy format; save it as .vtu");
   write("grains.vtu", "not xml");
   refuses("--bed grains.vtu --angle drum", "grains.vtu: is no VTK file");
   const std::string vtu = content(kData + "grains-spheres.0.vtu");

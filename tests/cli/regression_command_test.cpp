@@ -268,6 +268,10 @@ TEST_F(Regression, BadTablesAreRefusedWithTheirPlace) {
       {"y,fit,mixer,power,20,3,W,1,,,,,,,millet\n", "line 3, column fill"},
       {"y,fit,mixer,power,-20,3,W,1,0.15,,,,,,millet\n", "line 3, column value"},
       {"y,fit,mixer,power_loaded,20,3,W,1,0.15,,,,,,millet\n", "line 3, column observable"},
+      {"y,fit,mixer,power_loaded,20,3,W,1,0.15,,,,,,millet\ny,fit,mixer,power_idle,40,3,W,1,0.15,,,,,,millet\n",
+       "line 3, column value: power_loaded, 20 W, is below power_idle, 40 W"},
+      {"y,fit,mixer,power_loaded,20,3,W,1,0.15,,,,,,millet\ny,fit,mixer,power_idle,21,3,W,1,0.15,,,,,,millet\n",
+       "line 3, column value: the grain's power is -1 W"},
       {"y,fit,mixer,power,20,3\n", "line 3"},
   };
   for (const auto& c : cases) {

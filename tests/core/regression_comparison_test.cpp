@@ -73,6 +73,22 @@ TEST_F(Tables, LoadedPowerWithoutIdlingIsRefusedWithItsLine) {
   }
 }
 
+// Less power with grain than without by over three of its u, hypot(3, 4) W, is a mix-up; 14 W below is not.
+TEST_F(Tables, LoadedPowerBelowIdlingIsRefusedWithItsLine) {
+  const auto table = [&](double loaded) {
+    return write("a.csv", kHeader + power("s", loaded, 3, 1, "power_loaded") + power("s", 40, 4, 1, "power_idle"));
+  };
+  EXPECT_DOUBLE_EQ(read_reduced_table(table(26)).rows.at(0).value, -14);
+  try {
+    read_reduced_table(table(24));
+    FAIL();
+  } catch (const BadInput& error) {
+    EXPECT_NE(std::string(error.what()).find("line 2, column value: power_loaded, 24 W, is below power_idle, 40 W"),
+              std::string::npos)
+        << error.what();
+  }
+}
+
 // 20 against 23 W with u 3 and 4: gap 15 %, z = 3/5; 30 against 27 W with u 2 and 2: z = -3/sqrt(8). Independent:
 // chi2 = 0.36 + 1.125. Matched by speed, whatever the names.
 TEST_F(Tables, PairsHaveRelativeGapAndZ) {
