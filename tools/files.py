@@ -2,6 +2,7 @@
 """Files read and written with one clear line for every fault; nothing is left half written."""
 import contextlib
 import json
+import os
 import pathlib
 import tomllib
 
@@ -38,7 +39,7 @@ def read_toml(path, mend):
 def whole(path):
     """`with whole(path) as partial:` write to partial; it becomes path when all has gone well, else it goes."""
     path = pathlib.Path(path)
-    partial = path.with_name(path.stem + ".partial" + path.suffix)  # the suffix tells a picture's kind
+    partial = path.with_name(f"{path.stem}.{os.getpid()}.partial{path.suffix}")  # the suffix tells a picture's kind
     try:
         if path.is_dir():
             raise IsADirectoryError(21, "is a folder")

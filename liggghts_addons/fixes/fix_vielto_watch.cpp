@@ -70,9 +70,9 @@ void GrainWatch::stop_for(int tag, const std::string& what, const std::string& w
   MPI_Allreduce(mine, p, 7, MPI_DOUBLE, MPI_SUM, world);
   const double speed = std::sqrt(p[3] * p[3] + p[4] * p[4] + p[5] * p[5]);
   const double moved = p[6] > 0 ? speed * update->dt / p[6] : 0;
-  // a contact lasts some twenty steps: a grain that crosses a hundredth of its radius in each is shot out of an overlap
+  // a contact lasts some twenty steps: a grain that crosses more than a hundredth of its radius in each is not held
   const char* const cause = moved > 0.01
-                                ? "the time step is too long, or it was shot out of an overlap"
+                                ? "grains are too soft, or the time step is too long, for this speed"
                                 : "a wall let it through: grains too soft for the load, or a mesh that is open";
   char line[600];
   snprintf(line, sizeof line,

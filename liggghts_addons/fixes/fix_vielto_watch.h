@@ -32,7 +32,7 @@ class GrainWatch : protected LAMMPS_NS::Pointers {
   };
   void stop(LAMMPS_NS::bigint now, const std::string& when);
   void stop_if_nowhere(const std::string& when);
-  [[noreturn]] void stop_for(int tag, const std::string& what, const std::string& when);
+  void stop_for(int tag, const std::string& what, const std::string& when);
   std::map<int, Place> places_;  // this processor's grains
   LAMMPS_NS::bigint grains_ = -1;
 };

@@ -2,6 +2,7 @@
 #include "core/csv.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cctype>
@@ -128,7 +129,8 @@ bool is_plain_utf8(std::string_view text) {
 std::string number_text(double value) { return fmt::format("{}", value); }
 
 void write_whole_file(const std::string& path, const std::string& text) {
-  const std::string partial = path + ".partial";
+  // of this process alone: two may write the same file at the same time
+  const std::string partial = fmt::format("{}.{}.partial", path, ::getpid());
   std::ofstream out(partial, std::ios::binary);
   out << text;
   out.close();

@@ -11,8 +11,8 @@
 #include <stdexcept>
 
 #include "core/bad_input.h"
-#include "core/net_power.h"
 #include "core/mixing_numbers.h"
+#include "core/net_power.h"
 
 namespace vielto {
 namespace {

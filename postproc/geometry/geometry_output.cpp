@@ -98,14 +98,20 @@ std::string geometry_par(const RigGeometry& geometry, const GeometryInput& input
 
 void write_geometry(const RigGeometry& geometry, const GeometryInput& input, const std::string& folder) {
   const fs::path out(folder);
-  fs::create_directories(out);
-  fs::remove(out / "geometry.par");
-  for (int i = 1; fs::remove(out / fmt::format("paddle_{}.stl", i)); ++i) {
+  const bool made = fs::create_directories(out);
+  try {
+    fs::remove(out / "geometry.par");
+    for (int i = 1; fs::remove(out / fmt::format("paddle_{}.stl", i)); ++i) {
+    }
+    for (const Part& part : geometry.parts) write_stl((out / (part.name + ".stl")).string(), part.name, part.triangles);
+    write_vtp(geometry, true, (out / "rotor.vtp").string());
+    write_vtp(geometry, false, (out / "drum.vtp").string());
+    write_whole_file((out / "geometry.par").string(), geometry_par(geometry, input));
+  } catch (...) {
+    std::error_code ignored;
+    if (made) fs::remove_all(out, ignored);
+    throw;
   }
-  for (const Part& part : geometry.parts) write_stl((out / (part.name + ".stl")).string(), part.name, part.triangles);
-  write_vtp(geometry, true, (out / "rotor.vtp").string());
-  write_vtp(geometry, false, (out / "drum.vtp").string());
-  write_whole_file((out / "geometry.par").string(), geometry_par(geometry, input));
 }
 
 void write_picture(const RigGeometry& geometry, const std::string& path) {

@@ -283,10 +283,7 @@ std::string lone_sample(const LoggerRecord& r, double from, double to) {
 }  // namespace
 
 LoggerMean logger_mean(const LoggerRecord& r, const LoggerColumns& c) {
-  const double begin = c.from.value_or(0), end = c.to.value_or(r.time.back());
-  if (end > r.time.back() * (1 + 1e-9))
-    throw BadInput(r.path, 0, fmt::format("ends at {:.6g} s, before the {:.6g} s asked for", r.time.back(), end),
-                   "give an earlier --to");
+  const double begin = c.from.value_or(0), end = std::min(c.to.value_or(r.time.back()), r.time.back());
   std::vector<double> steps;
   for (std::size_t i = 1; i < r.time.size(); ++i) steps.push_back(r.time[i] - r.time[i - 1]);
   const std::size_t inside = static_cast<std::size_t>(
@@ -296,6 +293,9 @@ LoggerMean logger_mean(const LoggerRecord& r, const LoggerColumns& c) {
                    fmt::format("give at least {}", kLeastSamples));
   LoggerMean result;
   result.interval = median(steps);
+  if (c.to && *c.to > r.time.back() + kWidestGap * result.interval)
+    throw BadInput(r.path, 0, fmt::format("ends at {:.6g} s, before the {:.6g} s asked for", r.time.back(), *c.to),
+                   "give an earlier --to");
   for (std::size_t i = 1; i < r.time.size(); ++i)
     if (r.time[i] > begin && r.time[i - 1] < end && steps[i - 1] > kWidestGap * result.interval)
       throw BadInput(r.path, r.lines[i], c.time,

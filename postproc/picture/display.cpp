@@ -5,11 +5,10 @@
 
 namespace vielto {
 
+// The connection stays: a virtual server begins anew when its last client leaves, and VTK would come at that moment.
 bool has_display() {
-  Display* display = XOpenDisplay(nullptr);
-  if (!display) return false;
-  XCloseDisplay(display);
-  return true;
+  static Display* const display = XOpenDisplay(nullptr);
+  return display != nullptr;
 }
 
 }  // namespace vielto

@@ -294,7 +294,7 @@ TEST_F(Regression, OtherBadInputIsRefusedInOneLine) {
   EXPECT_NE(refusal("fit " + write("few.csv", kHeader + "x,fit,mixer,power,20,3,W,1,0.15,,,,,,millet\n") + kMillet)
                 .find("few.csv"),
             std::string::npos);
-  EXPECT_NE(refusal("predict --equation " + table + kMillet + " --speeds 1 --fills 0.15").find("is no fitted equation"),
+  EXPECT_NE(refusal("predict --equation " + table + kMillet + " --speeds 1 --fills 0.15").find("is no JSON"),
             std::string::npos);
 }
 

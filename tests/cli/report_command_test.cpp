@@ -307,7 +307,7 @@ TEST_F(Report, RefusesInOneLineAndLeavesNothing) {
   const std::map<std::string, std::string> cases = {{"nowhere", "is no folder"},
                                                     {"empty", "holds nothing to report"},
                                                     {"broken", "torque.csv, line "},
-                                                    {"number", "power.json: is no power.json"},
+                                                    {"number", "power.json: is no JSON"},
                                                     {"table", "shear.csv, line 3: has 1 fields for 2 columns"},
                                                     {"run --out other", "other: exists and is no report"}};
   for (const auto& [arguments, reason] : cases) {

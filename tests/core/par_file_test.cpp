@@ -84,7 +84,7 @@ TEST(ParRange, RefusesWhatIsNoNumber) {
 
 // An integer of steps, of rows or of grains made of such a number is none.
 TEST(ParRange, RefusesNumbersOfNoPhysicalSize) {
-  for (const char* text : {"1.8e308", "1e300", "-1e300", "1.1e15", "1e-300", "-9e-16"})
+  for (const char* text : {"1e308", "1e300", "-1e300", "1.1e15", "1e-300", "-9e-16"})
     EXPECT_EQ(asked("any", text), "a number from 1e-15 to 1e+15 in size (m)") << text;
   for (const char* text : {"1e15", "-1e15", "1e-15", "0", "-0"}) EXPECT_EQ(asked("any", text), "good") << text;
 }

@@ -161,5 +161,5 @@ TEST(MixerRefusesLoss, OfAGrainWhileFilling) {
       mixer.mixer("run", two, "-var maxOverlap 0 -var youngsModulus 100 -var wall_youngsModulus 100");
   expect_refusal(mixer.folder / "run", outcome,
                  {"step", "every 1000 steps", "of 179 grains are there; grain ", "was lost", "velocity",
-                  "likely a wall let it through"});
+                  "likely grains are too soft"});
 }

@@ -101,7 +101,8 @@ def commands(inputs, out):
 
 
 def contents(folder):
-    return sorted(str(p.relative_to(folder)) for p in folder.rglob("*"))
+    """Files: an empty folder is no result."""
+    return sorted(str(p.relative_to(folder)) for p in folder.rglob("*") if p.is_file())
 
 
 def does_its_work(inputs, out, environment=None):
@@ -119,16 +120,23 @@ def does_its_work(inputs, out, environment=None):
     return made
 
 
-def is_refused(inputs, out, word):
+def is_refused(inputs, out, *words_told):
     for words, name in commands(inputs, out):
         done = run(*words)
         assert done.returncode in (1, 2), (words, done)
         told = done.stderr.strip().splitlines()
-        assert len(told) == 1 and told[0].startswith("vielto: ") and word in told[0], (words, done.stderr)
+        assert len(told) == 1 and told[0].startswith("vielto: ") and any(w in told[0] for w in words_told), (
+            words,
+            done.stderr,
+        )
         assert contents(out) in ([], ["filler"]), (words, contents(out))
 
 
+MOUNTED = []
+
+
 def mount(folder, size):
+    MOUNTED.append(folder)
     folder.mkdir(exist_ok=True)
     subprocess.run(["mount", "-t", "tmpfs", "-o", f"size={size}", "none", folder], check=True)
 
@@ -139,8 +147,7 @@ def without_times(made):
     return {name: text for name, text in made.items() if name in keep}
 
 
-with tempfile.TemporaryDirectory(prefix="vielto-rough-") as name:
-    folder = pathlib.Path(name)
+def test(folder):
     plain = folder / "plain"
     make_inputs(plain)
     plainly = without_times(does_its_work(plain, plain))
@@ -199,7 +206,7 @@ with tempfile.TemporaryDirectory(prefix="vielto-rough-") as name:
     (full / "filler").write_bytes(b"x" * 65536)
     is_refused(plain, full, "space left")
     (full / "filler").unlink()
-    # and one that becomes full: 240 rows and the meshes have room, 2160 rows have not
+    # and one that becomes full: the meshes have room, 21600 rows have not
     subprocess.run(["mount", "-o", "remount,size=420k", full], check=True)
     small = [
         "-log",
@@ -216,7 +223,7 @@ with tempfile.TemporaryDirectory(prefix="vielto-rough-") as name:
         "restartTurns",
         "0",
     ]
-    stopped = run("liggghts", *small, "-var", "run", full / "run", cwd=ROOT / "cases/mixer")
+    stopped = run("liggghts", *small, "-var", "turns", "60", "-var", "run", full / "run", cwd=ROOT / "cases/mixer")
     assert stopped.returncode and "space left" in stopped.stdout + stopped.stderr, stopped
     assert not (full / "run").exists() and (full / "run.partial").exists()
     for word in (
@@ -233,7 +240,7 @@ with tempfile.TemporaryDirectory(prefix="vielto-rough-") as name:
     locked = folder / "locked"
     mount(locked, "64k")
     subprocess.run(["mount", "-o", "remount,ro", locked], check=True)
-    is_refused(plain, locked, "cannot be ")
+    is_refused(plain, locked, "cannot be ", "cannot create")
     stopped = run("liggghts", *small, "-var", "run", locked / "run", cwd=ROOT / "cases/mixer")
     assert stopped.returncode and "cannot make the run folder" in stopped.stdout + stopped.stderr, stopped
 
@@ -262,3 +269,11 @@ with tempfile.TemporaryDirectory(prefix="vielto-rough-") as name:
     for post in posts:
         assert post.wait() == 0, post.stderr.read().decode()
     assert (plain / "run/post/observations.csv").read_text() == plainly["post"]
+
+
+with tempfile.TemporaryDirectory(prefix="vielto-rough-") as name:
+    try:
+        test(pathlib.Path(name))
+    finally:
+        for place in MOUNTED:
+            subprocess.run(["umount", "--lazy", place])

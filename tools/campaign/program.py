@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The command scripts/campaign."""
 import argparse
+import contextlib
+import fcntl
 import os
 import pathlib
 import re
@@ -58,9 +60,10 @@ def work(options):
         raise BadInput(
             f"{out}: LIGGGHTS reads no folder with blanks or any of '\"$#&* in its name; state another with --out"
         )
-    make_ready(known, out, points, options.again)
-    status = run_all(known, out, points, options, table)
-    missing = finished.gather(known, out, every) & {p["run"] for p in points}
+    with alone(out) as lock:
+        make_ready(known, out, points, options.again)
+        status = run_all(known, out, points, options, table, lock)
+        missing = finished.gather(known, out, every) & {p["run"] for p in points}
     if (out / "observations.csv").exists():
         print(f"table: {os.path.relpath(out / 'observations.csv')}")
     if status or missing:
@@ -87,12 +90,25 @@ def programs():
     raise BadInput(f"{prefix}: no liggghts of vielto is installed there; state its folder with --bin")
 
 
-def make_ready(known, out, points, again):
-    """The folder, without runs that are out of date and without the tables, which are made at the end."""
+@contextlib.contextmanager
+def alone(out):
+    """The folder for this campaign alone: of another one, or of what a killed one has left at work, the end is waited for."""
     try:
         out.mkdir(parents=True, exist_ok=True)
+        lock = open(out / "campaign.lock", "w")
     except OSError as e:
         raise BadInput(f"{out}: cannot be made: {e.strerror}; state another folder with --out")
+    with lock:
+        try:
+            fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
+            print(f"{out}: a campaign is at work there; waiting for its end", flush=True)
+            fcntl.flock(lock, fcntl.LOCK_EX)
+        yield lock
+
+
+def make_ready(known, out, points, again):
+    """The folder without runs that are out of date and without the tables, which are made at the end."""
     stale = list(finished.stale_runs(known, out, points))
     if stale and not again:
         raise BadInput(
@@ -105,7 +121,7 @@ def make_ready(known, out, points, again):
         (out / name).unlink(missing_ok=True)
 
 
-def run_all(known, out, points, options, table):
+def run_all(known, out, points, options, table, lock):
     """Snakemake's exit status."""
     command = ["snakemake", "--snakefile", HERE / "Snakefile", "--directory", out]
     command += ["--config", f"table={table}", f"out={out}", *([f"only={options.only}"] if options.only else [])]
@@ -123,7 +139,9 @@ def run_all(known, out, points, options, table):
     try:
         with open(out / "snakemake.log", "a") as log:
             # in a session of its own: when this command is told to end, all that it started ends with it
-            engine = subprocess.Popen(command, env=env, stdout=log, stderr=log, start_new_session=True)
+            engine = subprocess.Popen(
+                command, env=env, stdout=log, stderr=log, start_new_session=True, pass_fds=[lock.fileno()]
+            )
         while engine.poll() is None:
             tell_progress(known, out, points, started, first)
             try:
