@@ -90,8 +90,8 @@ TEST(MixerFilling, HasTheMassAskedForAndTheSizesOfTheNormalDistribution) {
 // The mixer's case, to be changed, in the folder of the test.
 void copy_case(const Mixer& mixer) {
   fs::copy(fs::path(VIELTO_SOURCE_DIR "/cases/mixer"), mixer.folder / "mixer");
-  for (const char* file : {"law.par", "card.par", "law.in", "drag.in", "engine.in"})
-    fs::copy(fs::path(VIELTO_SOURCE_DIR "/cases") / file, mixer.folder);
+  for (const auto& shared : fs::directory_iterator(VIELTO_SOURCE_DIR "/cases"))
+    if (shared.is_regular_file()) fs::copy(shared, mixer.folder);
 }
 
 // Runs the changed case to the run folder `run` beside it.
@@ -124,12 +124,17 @@ TEST(MixerWalls, OurLoopGivesTheNumbersOfLiggghts) {
 TEST(MixerFilling, ComesInWithoutTouchingRotorOrDrum) {
   Mixer mixer;
   copy_case(mixer);
-  const std::string script = mixer.read("mixer/in.mixer");
-  const std::size_t first = script.find("\nrun 1\n");
-  ASSERT_NE(first, std::string::npos);
-  const Outcome outcome = run_case(
-      mixer, script.substr(0, first) + "\nrun 1\nwrite_dump all custom/vtk ../in.vtk id type x y z vx vy vz radius\n",
-      std::string("-var fill 0.25 ") + four);
+  // each file up to and with a line, the rest of it left out
+  const auto cut = [&](const std::string& file, const std::string& line, const std::string& more) {
+    const std::string text = mixer.read(file);
+    const std::size_t at = text.find("\n" + line);
+    EXPECT_NE(at, std::string::npos) << file;
+    mixer.write(file, text.substr(0, text.find('\n', at + 1) + 1) + more);
+  };
+  cut("filling.in", "run 1\n", "write_dump all custom/vtk ../in.vtk id type x y z vx vy vz radius\n");
+  cut("mixer/bed.in", "include ../filling.in", "");
+  cut("mixer/in.mixer", "vielto include bed.in", "");
+  const Outcome outcome = run_case(mixer, mixer.read("mixer/in.mixer"), std::string("-var fill 0.25 ") + four);
   ASSERT_EQ(outcome.status, 0) << outcome.text;
   const auto grains = read_vtk(mixer.folder / "in.vtk");
   vtkDataArray* radius = grains->GetPointData()->GetArray("radius");

@@ -1,3 +1,4 @@
+#!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-2.0-or-later
 """kill -9 at random moments: scripts/campaign and `vielto gap confirm --run`, called again after each, end with the tables of a call
 that nobody killed. What is killed is the command alone, or all that it has started as well, in turn.
