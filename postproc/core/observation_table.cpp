@@ -104,7 +104,8 @@ class TableCheck {
                    "name the repeats as tests of their own");
     const auto [first, is_first] = tests_.emplace(row.test, std::pair(row, place.line));
     if (is_first) return;
-    const auto& [other, other_line] = first->second;
+    const auto& other = first->second.first;
+    const auto other_line = first->second.second;  // no binding: a lambda below takes it
     const auto same = [&](const char* column, bool equal) {
       if (!equal)
         place.refuse(column, fmt::format("differs from line {} of the same test '{}'", other_line, row.test),
