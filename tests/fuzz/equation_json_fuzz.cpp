@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+#include <nlohmann/json.hpp>
+
 #include "equation/power_equation.h"
 #include "tests/fuzz/harness.h"
 
