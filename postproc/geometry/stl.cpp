@@ -8,6 +8,8 @@
 #include <vtkPolyData.h>
 #include <vtkSTLReader.h>
 
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -41,6 +43,10 @@ void refuse_cut_off(const std::string& path) {
   int number = 0;
   while (std::getline(in, line)) {
     ++number;
+    // VTK would take the file for a binary one, and four letters of it for the number of triangles
+    if (std::any_of(line.begin(), line.end(),
+                    [](unsigned char c) { return !std::isprint(c) && c != '\t' && c != '\r'; }))
+      throw BadInput(path, number, "begins as text, but holds bytes that are no text", kRemake);
     if (line.find_first_not_of(" \t\r") != std::string::npos) last = line;
   }
   if (last.find("endsolid") == std::string::npos) throw BadInput(path, number, "ends before 'endsolid'", kRemake);

@@ -158,6 +158,9 @@ TEST_F(GeometryCommand, RefusesAMissingEmptyCorruptOrOpenMesh) {
   write("empty.stl", "");
   write("text.stl", "this is no mesh\n");
   write("half.stl", good.substr(0, good.size() / 2));
+  // found by fuzzing: 1.85e9 triangles were asked for
+  write("mixed.stl", std::string("solid tetra\nfacet normal 0 0 -1\n outer loop\n") + '\x11' + "\nendsolid tetra\n");
+  expect_refusal(check("mixed.stl"), "line 4: begins as text, but holds bytes that are no text");
   write("bare.stl", "solid nothing\nendsolid nothing\n");
   write("garbled.stl", std::regex_replace(good, std::regex("vertex [^ ]+"), "vertex x"));
   const auto first = good.find("facet normal");
