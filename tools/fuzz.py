@@ -103,7 +103,9 @@ def fuzz(reader, executions):
         (corpus / f"seed_{number}").write_bytes(text if reader in WHOLE else cut(text))
     most = max(p.stat().st_size for p in corpus.iterdir())
     environment = dict(
-        os.environ, ASAN_OPTIONS="detect_leaks=0:quarantine_size_mb=16:allocator_may_return_null=1", UBSAN_OPTIONS="halt_on_error=1"
+        os.environ,
+        ASAN_OPTIONS="detect_leaks=0:quarantine_size_mb=16:allocator_may_return_null=1",
+        UBSAN_OPTIONS="halt_on_error=1",
     )
     result = subprocess.run(
         [
