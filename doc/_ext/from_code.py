@@ -86,7 +86,7 @@ class Observables(FromFile):
         rows = [
             [apparatus, name, unit, meaning]
             for apparatus, entry in {**stated, **any_apparatus}.items()
-            for name, (unit, meaning) in entry["observables"].items()
+            for name, (unit, meaning, *_) in entry["observables"].items()
         ]
         return [table(["apparatus", "observable", "unit", "meaning"], rows, code=2)]
 

@@ -28,8 +28,8 @@ The directive {values}: the same from JSON files, a row for each template and a 
     ```
 
 Names in braces are keys (`a.b` one inside another) of the column's file, in a row's label those of the first file. A
-cell whose key is not there or null is a dash. Each of `scores` is a row of a score file: how many cases, the score, its 95 %
-interval.
+cell whose key is not there or null is a dash. Rows may also stand in the directive's body, a line each. Each of `scores`
+is a row of a score file: how many cases, the score, its 95 % interval.
 """
 import csv
 import json
@@ -150,6 +150,8 @@ class JsonValues(Directive):
         "scores": directives.unchanged,
     }
 
+    has_content = True
+
     def run(self):
         columns = [[part.strip() for part in file.split("=", 1)] for file in self.options["files"].split(";")]
         contents = []
@@ -161,6 +163,7 @@ class JsonValues(Directive):
                 raise self.error(f"{path}: {fault!r}") from fault
         body = []
         rows = [row for row in self.options.get("rows", "").split(";") if row.strip()]
+        rows += [line for line in self.content if line.strip()]
         rows += [score_row(score.strip()) for score in self.options.get("scores", "").split(",") if score.strip()]
         for row in rows:
             label, template = (part.strip() for part in row.split("=", 1))

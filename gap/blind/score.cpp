@@ -208,8 +208,7 @@ void add_rates(json& result, const std::vector<Scored>& cases) {
                  pick(cases, [](const Scored& c) { return c.kind() != "none" && c.kind() != "removed"; }), is_wrong);
   add_proportion(result, "false_alarm", pick(cases, kind("none")),
                  [](const Scored& c) { return c.verdict() != "no_gap"; });
-  // what the rows cannot show leaves nothing to be found
-  const Pick removed = pick(cases, [](const Scored& c) { return c.kind() == "removed" && c.detectable; });
+  const Pick removed = pick(cases, kind("removed"));
   add_proportion(result, "unknown_found", removed, [](const Scored& c) { return c.verdict() == "unknown"; });
   add_proportion(result, "removed_named", removed, [](const Scored& c) { return c.verdict() == "named"; });
   add_proportion(

@@ -9,8 +9,8 @@
 //                  outside the group
 //   wrong_name     known, sham, pair, prior: a name that is no true one
 //   false_alarm    none: any verdict but no_gap
-//   unknown_found  removed, strong, detectable: unknown
-//   removed_named  removed, strong, detectable: named
+//   unknown_found  removed, strong: unknown
+//   removed_named  removed, strong: named
 //   coverage90     prior: the true strength lies in the interval given for its effect (where one is given)
 //   closure        known, strong, pooled over cases: what `after` closes beyond recalibration over what the true effect
 //                  closes, each 1 - sqrt(sum after^2 / sum recalibrated^2); a verdict without an effect closes nothing

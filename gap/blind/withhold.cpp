@@ -183,7 +183,6 @@ class Maker {
       asked.table = request_.tests;
       asked.reference = request_.reference;
       asked.emulator = options_;
-      asked.seed = sealed.value("seed", asked.seed);
       question_.emplace(asked);
       rows = question_->fingerprint_of_rows();
     }

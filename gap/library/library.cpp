@@ -110,10 +110,10 @@ void read_design(Library& library, const std::vector<Effect>& effects) {
 }
 
 /* What no simulated run can give: a bed without slope, power, stress or weight, a slope of 90 degrees. Such a row is a
-   mistake of its maker, and an emulator would take it as a response. A drift of zero may have any sign, and so may what
-   a paddle carries. */
+   mistake of its maker, and an emulator would take it as a response. The table of rigs says
+   which may have any sign. */
 void refuse_impossible(const Observation& row, const std::string& path, int line) {
-  if (row.observable == "zero_drift" || row.observable.rfind("paddle_share_", 0) == 0) return;
+  if (const NamedObservable* o = find_observable(row.apparatus, row.observable); o && o->any_sign) return;
   if (!(row.value > 0))
     throw BadInput(path, line, "value", fmt::format("{} of {} is {}", row.observable, row.apparatus, row.value),
                    "state a value above 0, or remove the run");

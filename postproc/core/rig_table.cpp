@@ -28,9 +28,11 @@ std::vector<NamedObservable> read_observables(const TomlTable& t) {
   std::vector<NamedObservable> result;
   for (const std::string& name : t.keys()) {
     const std::vector<std::string> texts = t.texts(name);
-    if (texts.size() != 2)
-      t.refuse(name, "states no unit and meaning", fmt::format("write {} = [\"UNIT\", \"MEANING\"]", name));
-    result.push_back({name, texts[0], texts[1]});
+    const bool any_sign = texts.size() == 3 && texts[2] == "any sign";
+    if (texts.size() != 2 && !any_sign)
+      t.refuse(name, "states no unit and meaning",
+               fmt::format("write {} = [\"UNIT\", \"MEANING\"], or with \"any sign\" as a third", name));
+    result.push_back({name, texts[0], texts[1], any_sign});
   }
   return result;
 }
@@ -123,7 +125,7 @@ std::string joined(const std::string& (*text_of)(const RigDescription&)) {
 nlohmann::ordered_json observables_json(const std::vector<NamedObservable>& observables) {
   auto j = nlohmann::ordered_json::array();
   for (const NamedObservable& o : observables)
-    j.push_back({{"name", o.name}, {"unit", o.unit}, {"meaning", o.meaning}});
+    j.push_back({{"name", o.name}, {"unit", o.unit}, {"meaning", o.meaning}, {"any_sign", o.any_sign}});
   return j;
 }
 

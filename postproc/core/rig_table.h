@@ -14,6 +14,7 @@ namespace vielto {
 
 struct NamedObservable {
   std::string name, unit, meaning;
+  bool any_sign = false;  // a simulated value may be 0 or less
 };
 
 struct RigPicture {

@@ -230,6 +230,14 @@ TEST_F(GapReferenceState, NamesWhatHasChanged) {
   const std::string page = content(folder_ / "answer/diagnosis.html");
   EXPECT_NE(page.find("Something has changed"), std::string::npos);
   EXPECT_NE(page.find("Without the reference"), std::string::npos);
+
+  // the same answer alone
+  ASSERT_EQ(diagnose("--reference dry.csv --change-only"), 0) << err_;
+  const json alone = answer();
+  EXPECT_FALSE(alone.contains("why_it_is_off"));
+  EXPECT_EQ(out_.find("Without the reference"), std::string::npos) << out_;
+  EXPECT_EQ(alone["probabilities"], d["probabilities"]);
+  EXPECT_NE(diagnose("--change-only"), 0);
 }
 
 // The 90 % interval of the strength holds the truth in 90 % of fresh tables: 5 of 8 or fewer would be one in two

@@ -162,6 +162,20 @@ TEST(MixerFilling, ComesInWithoutTouchingRotorOrDrum) {
   EXPECT_LT(nearest, 0.05);  // the triangles looked at are near
 }
 
+// The line is the mixer's own: what the other rigs would change is no parameter of it.
+TEST(MixerFilling, SaysWhatToDoWhereGrainFindsNoRoom) {
+  Mixer mixer;
+  copy_case(mixer);
+  std::string script = mixer.read("mixer/in.mixer");
+  const std::string room = "${density}*0.2*";
+  ASSERT_NE(script.find(room), std::string::npos);
+  script.replace(script.find(room), room.size(), "${density}*9*");
+  const Outcome outcome = run_case(mixer, script, std::string("-var fill 0.25 ") + four);
+  EXPECT_NE(outcome.status, 0);
+  EXPECT_NE(outcome.text.find("found room; lower fill or grainDiameter"), std::string::npos) << outcome.text;
+  EXPECT_FALSE(fs::exists(mixer.folder / "run"));
+}
+
 // Without grain the record holds the idling model: mean T0 + Ta n^2 with a relative noise of 3 % a row, and no grain
 // torque.
 TEST(MixerIdling, RecordsTheModelsMeanAndNoise) {

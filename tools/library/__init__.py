@@ -4,9 +4,9 @@
 A library is a folder that `vielto gap collect` makes of a campaign's runs (gap/README.md says what is in it).
 """
 from tools import command_line
-from tools.library import add, design, detectability, responses
+from tools.library import add, design, detectability, responses, shares
 
-COMMANDS = {"add": add, "design": design, "responses": responses, "detectability": detectability}
+COMMANDS = {"add": add, "design": design, "responses": responses, "detectability": detectability, "shares": shares}
 
 
 def main():
