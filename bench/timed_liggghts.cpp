@@ -111,10 +111,10 @@ Fix* make_wall_fix(LAMMPS* lmp, int narg, char** arg) {
   return new TimedWall<FixWallGran>(lmp, narg, arg);
 }
 
-// LIGGGHTS' own integrator and gravity for the stock law, as in the stock program.
+// LIGGGHTS' own integrator, gravity and meshes for the stock law, as in the stock program.
 typedef Fix* (*FixMaker)(LAMMPS*, int, char**);
-FixMaker ours[2], stock[2];
-const char* const motions[2] = {"nve/sphere", "gravity"};
+const char* const motions[4] = {"nve/sphere", "gravity", "move/mesh", "mesh/surface/stress"};
+FixMaker ours[4], stock[4];
 
 template <int Which>
 Fix* make_motion(LAMMPS* lmp, int narg, char** arg) {
@@ -180,11 +180,13 @@ int main(int argc, char** argv) {
   {
     LAMMPS lammps(argc, argv, MPI_COMM_WORLD);
     auto& fixes = *(lammps.modify->*vielto::Handed<FixTable>::pointer);
-    for (int k = 0; k < 2; k++) stock[k] = fixes[motions[k]];
+    for (int k = 0; k < 4; k++) stock[k] = fixes[motions[k]];
     vielto::install(&lammps);
-    for (int k = 0; k < 2; k++) ours[k] = fixes[motions[k]];
+    for (int k = 0; k < 4; k++) ours[k] = fixes[motions[k]];
     fixes[motions[0]] = &make_motion<0>;
     fixes[motions[1]] = &make_motion<1>;
+    fixes[motions[2]] = &make_motion<2>;
+    fixes[motions[3]] = &make_motion<3>;
     fixes["wall/gran"] = &make_wall_fix;
     // after LIGGGHTS has registered its own, which would replace ours
     using Ours = GranStyle<VIELTO, TANGENTIAL_VIELTO, COHESION_OFF, ROLLING_VIELTO, SURFACE_DEFAULT>;

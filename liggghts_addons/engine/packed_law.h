@@ -77,6 +77,15 @@ struct GrainMotion {
   double acceleration[3];
 };
 
+// Vectors, three values each, one after the other; as LIGGGHTS moves the meshes, to the last bit.
+struct MeshMotion {
+  void (*turn)(double* vectors, size_t count, const double* quaternion);
+  // Velocities of points that turn about the origin.
+  void (*swing)(const double* points, size_t count, const double* spin, double* velocities);
+  // Greatest square of a distance gone, m2.
+  double (*farthest)(const double* now, const double* then, size_t count);
+};
+
 /* `touching`: numbers of the pairs of the block. A law returns whether some overlap may exceed greatestOverlap. `add`
    adds in the order of the contacts, so that sums are rounded as if they came one by one. */
 struct PackedLaw {
@@ -87,6 +96,7 @@ struct PackedLaw {
   void (*kick_and_move)(const GrainMotion&);  // first half step of fix nve/sphere
   void (*kick)(const GrainMotion&);           // its second half
   void (*weigh)(const GrainMotion&);          // fix gravity
+  MeshMotion mesh;
 };
 
 // NULL: contact by contact. Stops the run where VIELTO_LANES asks for what there is not.

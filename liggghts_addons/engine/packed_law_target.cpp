@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "engine/grain_motion_target.h"
+#include "engine/mesh_motion_target.h"
 #include "engine/near_search_target.h"
 #include "engine/packed_law.h"
 #include "engine/packed_number.h"
@@ -259,12 +260,9 @@ void add(const PackedStep& step, const PackedGrains& g, const NearPair* pairs, c
 }  // namespace
 
 extern const PackedLaw VIELTO_PACKED_SET;
-const PackedLaw VIELTO_PACKED_SET = {&press,
-                                     &add,
-                                     &evaluate<true>,
-                                     {Pack::lanes, &near_places, &near_drift, &near_touching},
-                                     &integrate<true>,
-                                     &integrate<false>,
-                                     &weigh};
+const PackedLaw VIELTO_PACKED_SET = {&press,           &add,
+                                     &evaluate<true>,  {Pack::lanes, &near_places, &near_drift, &near_touching},
+                                     &integrate<true>, &integrate<false>,
+                                     &weigh,           {&turn, &swing, &farthest}};
 
 }  // namespace vielto

@@ -28,6 +28,7 @@
 #include "fixes/fix_vielto_record.h"
 #include "fixes/fix_vielto_shear.h"
 #include "engine/grain_motion.h"
+#include "engine/mesh_motion.h"
 #include "engine/wall_loop.h"
 #include "script/script_command.h"
 #include "engine/private_access.h"
@@ -135,6 +136,8 @@ void install(LAMMPS* lmp) {
   fixes["wall/gran"] = &make_wall_fix;
   fixes["nve/sphere"] = &make_fix<FixViEltoIntegrate>;
   fixes["gravity"] = &make_fix<FixViEltoGravity>;
+  fixes["move/mesh"] = &make_fix<FixViEltoMoveMesh>;
+  fixes["mesh/surface/stress"] = &make_fix<FixViEltoMesh>;
   (*(lmp->input->*Handed<CommandTable>::pointer))["vielto"] = &run_command;
 }
 

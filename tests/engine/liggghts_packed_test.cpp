@@ -152,6 +152,41 @@ INSTANTIATE_TEST_SUITE_P(Floor, WallLoop,
                                          Floor{"Rises", "wiggle amplitude 0 0 0.002 period 0.003", 1200}),
                          [](const auto& one) { return one.param.name; });
 
+/* A floor that turns about a skew axis, with the stresses of its triangles at outputs: on one rank, and on two that
+   share the floor. On one rank the record ends the run between two outputs, and then `write_dump` asks. */
+class TurningMesh : public testing::TestWithParam<int> {};
+
+TEST_P(TurningMesh, IsMovedAndStressedAsLiggghtsDoesIt) {
+  const int ranks = GetParam();
+  const auto states = [&](const std::string& lanes) {
+    const Lanes set(lanes);
+    Liggghts run;
+    run.script = bed(run, {"", vielto_models, bed_settings, "", {Material(), stiffer()}, ranks});
+    replace(run.script, "axis 0 0 1 period 1", "axis 0.01 -0.02 1 period 1");
+    replace(run.script, "every 500 file torque.csv speed 1 axis 0 0 1",
+            "every 50 file torque.csv speed 1 axis 0.01 -0.02 1");
+    replace(run.script, "run 8000",
+            std::string("dump mesh all mesh/vtk 700 mesh*.vtk stress vel id\n") +
+                (ranks == 1 ? "fix_modify record until 0.9 1\nrun 30000\n" : "run 1400\n") +
+                "write_dump all mesh/vtk end.vtk stress vel id\n");
+    run.must(ranks);
+    const std::string rows = run.read("torque.csv");
+    const long last = std::stol(rows.substr(rows.rfind('\n', rows.size() - 2) + 1));
+    if (ranks == 1) {
+      EXPECT_LT(last, 30000) << "the record was to end the run";
+      EXPECT_NE(last % 700, 0) << "the run ends at an output";
+    }
+    std::string text = run.read("state") + rows + run.read("end.vtk");
+    for (long step = 700; step <= last; step += 700) text += run.read(fmt::format("mesh{}.vtk", step));
+    return text;
+  };
+  const std::string one = states("1");
+  EXPECT_NE(one.find("stress"), std::string::npos);
+  for (const std::string& many : lanes()) EXPECT_TRUE(states(many) == one) << many << " vectors at once differ";
+}
+
+INSTANTIATE_TEST_SUITE_P(Ranks, TurningMesh, testing::Values(1, 2));
+
 // In the thermo line, where LIGGGHTS' own fix gravity sums it in each step.
 TEST(PackedGravity, TellsTheSameEnergy) {
   const auto energies = [](const std::string& lanes) {
