@@ -211,7 +211,7 @@ std::string version_of_first_run(const Plan& plan) {
 void run_confirm(const GapOptions& o) {
   check_out(o.out, kAnswerFiles);
   const Question q(o.question());
-  const auto simulable = [](const Observation& row) { return row.role == "check" && find_rig(row.apparatus); };
+  const auto simulable = [](const Observation& row) { return row.role == Role::check && find_rig(row.apparatus); };
   if (std::none_of(q.table.rows.begin(), q.table.rows.end(), simulable))
     throw BadInput(o.table, 0, "holds no row of role check that a rig can simulate",
                    fmt::format("mark held-out tests of {}: the shrink is measured on them", rig_names()));

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
-#include <filesystem>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -25,11 +24,12 @@
 #include "rigs/drum/bed_shape.h"
 #include "rigs/mixing_power.h"
 #include "rigs/whole_shaft.h"
+#include "row_options.h"
 
 namespace vielto {
 namespace {
 
-struct ImportOptions {
+struct ImportOptions : RowOptions {
   std::string torque, idle;
   TorqueColumns columns{"t", "", 1, 1, {}, false};
   int turns = kLeastAveragedTurns;
@@ -39,30 +39,18 @@ struct ImportOptions {
   std::string angle_of, across = "y", up = "z";
   std::vector<double> window, box;
   double length_factor = 1, grain_density = 0;
-
-  std::string test, role = "fit", wall, material, out;
-  std::optional<double> speed, fill, moisture, tilt;
-  bool append = false;
 };
 
 int axis_of(const std::string& name) { return name[0] - 'x'; }
 
 Observation row_of(const ImportOptions& o, const std::string& apparatus, const std::string& observable, double value,
                    double u) {
-  Observation row;
-  row.test = o.test;
-  row.role = o.role;
+  Observation row = o.row;
   row.apparatus = apparatus;
   row.observable = observable;
   row.value = value;
   row.u = u;
   row.unit = *observable_unit(apparatus, observable);
-  row.speed = o.speed;
-  row.fill = o.fill;
-  row.moisture = o.moisture;
-  row.tilt = o.tilt;
-  row.wall = o.wall;
-  row.material = o.material;
   return row;
 }
 
@@ -73,7 +61,7 @@ struct SteadyTorque {
 };
 
 SteadyTorque steady_torque(const ImportOptions& o, const std::string& path) {
-  const SampledTorque sampled = sampled_torque(read_column_text(path), o.columns, *o.speed);
+  const SampledTorque sampled = sampled_torque(read_column_text(path), o.columns, *o.row.speed);
   SteadyTorque result;
   result.turns = steady_turns(path, 0, sampled.signal, o.turns);
   result.mean = mean_over(sampled.signal, result.turns);
@@ -95,7 +83,7 @@ SteadyTorque steady_torque(const ImportOptions& o, const std::string& path) {
 
 void add_torque_rows(const ImportOptions& o, std::vector<Observation>& rows) {
   const SteadyTorque loaded = steady_torque(o, o.torque);
-  const double watt = shaft_power(1, *o.speed);
+  const double watt = shaft_power(1, *o.row.speed);
   if (o.idle.empty()) {
     rows.push_back(row_of(o, "mixer", "power", watt * loaded.mean.mean, watt * loaded.mean.u));
   } else {
@@ -149,7 +137,7 @@ void check(const ImportOptions& o) {
   };
   if (o.torque.empty() && o.bed.empty()) refuse("imports nothing", "give --torque FILE, --bed FILE, or both");
   if (!o.torque.empty() && o.columns.torque.empty()) refuse("--torque has no column", "name it with --torque-column");
-  if (!o.torque.empty() && !(o.speed && *o.speed > 0))
+  if (!o.torque.empty() && !(o.row.speed && *o.row.speed > 0))
     refuse("--torque has no speed", "give --speed, in turns a second");
   if (o.torque.empty() && (!o.idle.empty() || o.ripple))
     refuse("--idle and --ripple have no torque", "give --torque FILE");
@@ -168,8 +156,7 @@ void check(const ImportOptions& o) {
 
 void import_yade(const ImportOptions& o) {
   check(o);
-  std::vector<Observation> rows;
-  if (o.append && std::filesystem::exists(o.out)) rows = read_observations(o.out);
+  std::vector<Observation> rows = o.earlier();
   const std::size_t before = rows.size();
   if (!o.torque.empty()) add_torque_rows(o, rows);
   if (!o.bed.empty()) add_bed_rows(o, rows);
@@ -193,18 +180,8 @@ void add_import_command(CLI::App& app) {
       "doc/guide/yade_results.md\n"
       "Example: vielto import yade --torque plot.txt --torque-column Tx --time-column t --speed 1 --fill 0.15 \\\n"
       "           --test seed1 --out observations.csv");
-  command->add_option("--out", o->out, "the observation table to write")->required();
-  command->add_flag("--append", o->append, "keep the rows that it holds already");
-  command->add_option("--test", o->test, "name of the test")->required();
-  command->add_option("--role", o->role, "role of the test")
-      ->check(CLI::IsMember({"fit", "check"}))
-      ->capture_default_str();
-  command->add_option("--speed", o->speed, "1/s, turns a second")->check(CLI::PositiveNumber);
-  command->add_option("--fill", o->fill, "drum loading factor")->check(CLI::Range(0.0, 1.0));
-  command->add_option("--moisture", o->moisture, "wet basis")->check(CLI::Range(0.0, 1.0));
-  command->add_option("--tilt", o->tilt, "deg, of the axis from horizontal")->check(CLI::Range(-90.0, 90.0));
-  command->add_option("--wall", o->wall, "name of the wall's material");
-  command->add_option("--material", o->material, "name of the grain");
+  o->add_to(command);
+  command->add_option("--tilt", o->row.tilt, "deg, of the axis from horizontal")->check(CLI::Range(-90.0, 90.0));
 
   command->add_option("--torque", o->torque, "text with the torque on the rotor against time")->group("Torque");
   command->add_option("--idle", o->idle, "the same of the empty machine: rows power_loaded and power_idle")

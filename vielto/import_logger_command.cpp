@@ -20,17 +20,16 @@
 #include "core/observation_table.h"
 #include "import/logger_record.h"
 #include "picture/display.h"
+#include "row_options.h"
 
 namespace vielto {
 namespace {
 
-struct LoggerOptions {
-  std::string file, idle, unit = "W", out;
+struct LoggerOptions : RowOptions {
+  std::string file, idle, unit = "W";
   LoggerColumns columns;
   std::optional<double> idle_from, idle_to;
   double accuracy = 0, factor = 1;
-  bool append = false;
-  Observation row;
 };
 
 // Times the column is W.
@@ -110,8 +109,7 @@ void import_logger(const LoggerOptions& o) {
     throw BadInput("vielto import logger", 0, "--from and --to go together", "give both or neither");
   if (o.columns.from && !(*o.columns.from < *o.columns.to))
     throw BadInput("vielto import logger", 0, "--from is not before --to", "give seconds after the first row");
-  std::vector<Observation> rows;
-  if (o.append && std::filesystem::exists(o.out)) rows = read_observations(o.out);
+  std::vector<Observation> rows = o.earlier();
   const Averaged loaded = averaged(o, o.file, o.columns);
   std::optional<Averaged> idle;
   rows.push_back(row_of(o, "power_loaded", loaded.m));
@@ -141,7 +139,6 @@ void import_logger(const LoggerOptions& o) {
 
 void add_import_logger(CLI::App& import) {
   auto o = std::make_shared<LoggerOptions>();
-  o->row.role = "fit";
   CLI::App* c =
       import.add_subcommand("logger",
                             "power or torque over time from a data logger or power analyser: rows power_loaded and "
@@ -169,17 +166,7 @@ void add_import_logger(CLI::App& import) {
   c->add_option("--idle-to", o->idle_to, "the same for the idling record");
   c->add_option("--accuracy", o->accuracy, "relative standard uncertainty of the instrument, shared by both records")
       ->check(CLI::Range(0.0, 0.5));
-  c->add_option("--out", o->out, "the observation table to write")->required();
-  c->add_flag("--append", o->append, "keep the rows that it holds already");
-  c->add_option("--test", o->row.test, "name of the test")->required();
-  c->add_option("--role", o->row.role, "role of the test")
-      ->check(CLI::IsMember({"fit", "check"}))
-      ->capture_default_str();
-  c->add_option("--speed", o->row.speed, "1/s, turns a second")->check(CLI::PositiveNumber);
-  c->add_option("--fill", o->row.fill, "drum loading factor")->check(CLI::Range(0.0, 1.0));
-  c->add_option("--moisture", o->row.moisture, "wet basis")->check(CLI::Range(0.0, 1.0));
-  c->add_option("--wall", o->row.wall, "name of the wall's material");
-  c->add_option("--material", o->row.material, "name of the grain");
+  o->add_to(c);
   c->callback([o] { import_logger(*o); });
 }
 

@@ -2,7 +2,6 @@
 // vielto import surface: a measured free surface of a drum's bed -> rows of an observation table.
 #include <fmt/format.h>
 
-#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
@@ -10,22 +9,20 @@
 #include "commands.h"
 #include "core/observation_table.h"
 #include "import/measured_surface.h"
+#include "row_options.h"
 
 namespace vielto {
 namespace {
 
-struct SurfaceOptions {
-  std::string file, out;
+struct SurfaceOptions : RowOptions {
+  std::string file;
   SurfaceColumns columns;
   double drum_diameter = 0;
   std::vector<double> u;
-  Observation row;
-  bool append = false;
 };
 
 void import_surface(const SurfaceOptions& o) {
-  std::vector<Observation> rows;
-  if (o.append && std::filesystem::exists(o.out)) rows = read_observations(o.out);
+  std::vector<Observation> rows = o.earlier();
   const MeasuredSurface surface = read_surface(o.file, o.columns, o.drum_diameter / 2);
   std::size_t k = 0;
   for (const SurfaceWindow& window : kSurfaceWindows) {
@@ -46,7 +43,6 @@ void import_surface(const SurfaceOptions& o) {
 
 void add_import_surface(CLI::App& import) {
   auto o = std::make_shared<SurfaceOptions>();
-  o->row.role = "fit";
   o->row.tilt = 0;
   CLI::App* command = import.add_subcommand(
       "surface",
@@ -67,17 +63,7 @@ void add_import_surface(CLI::App& import) {
       ->expected(3)
       ->check(CLI::PositiveNumber)
       ->required();
-  command->add_option("--out", o->out, "the observation table to write")->required();
-  command->add_flag("--append", o->append, "keep the rows that it holds already");
-  command->add_option("--test", o->row.test, "name of the test")->required();
-  command->add_option("--role", o->row.role, "role of the test")
-      ->check(CLI::IsMember({"fit", "check"}))
-      ->capture_default_str();
-  command->add_option("--speed", o->row.speed, "1/s, turns a second")->check(CLI::PositiveNumber);
-  command->add_option("--fill", o->row.fill, "drum loading factor")->check(CLI::Range(0.0, 1.0));
-  command->add_option("--moisture", o->row.moisture, "wet basis")->check(CLI::Range(0.0, 1.0));
-  command->add_option("--wall", o->row.wall, "name of the wall's material");
-  command->add_option("--material", o->row.material, "name of the grain");
+  o->add_to(command);
   command->callback([o] { import_surface(*o); });
 }
 

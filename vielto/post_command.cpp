@@ -13,6 +13,7 @@
 #include "picture/film.h"
 #include "picture/render.h"
 #include "rigs/rig_code.h"
+#include "row_options.h"
 
 namespace vielto {
 namespace {
@@ -69,9 +70,7 @@ void add_post_command(CLI::App& app) {
       ->capture_default_str();
   command->add_option("--test", options->input.label.test,
                       "name of the test in observations.csv (default: from the conditions)");
-  command->add_option("--role", options->input.label.role, "role of the test")
-      ->check(CLI::IsMember({"fit", "check"}))
-      ->capture_default_str();
+  add_role_option(command, options->input.label.role);
   command->add_option("--wall", options->input.label.wall, "wall, for observations.csv");
   command->add_option("--moisture", options->input.label.moisture, "moisture (wet basis), for observations.csv")
       ->check(CLI::Range(0.0, 1.0));

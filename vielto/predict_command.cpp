@@ -20,6 +20,7 @@
 #include "equation/equation_covariance.h"
 #include "equation/power_equation.h"
 #include "material_options.h"
+#include "row_options.h"
 
 namespace vielto {
 namespace {
@@ -27,7 +28,8 @@ namespace {
 using nlohmann::json;
 
 struct PredictOptions {
-  std::string equation, mixer, wall, out, role = "fit";
+  std::string equation, mixer, wall, out;
+  Role role = Role::fit;
   bool thesis = false, extrapolate = false, json = false;
   MaterialOptions materials;
   std::vector<double> speeds, fills, check_fills;
@@ -168,7 +170,7 @@ std::vector<Observation> observations(const PredictOptions& o, const Setting& s)
       const Prediction p = checked(o, s, fill, speed);
       Observation row;
       row.test = fmt::format("l{:.4g}_n{:.4g}", fill, speed);
-      row.role = std::count(o.check_fills.begin(), o.check_fills.end(), fill) > 0 ? "check" : o.role;
+      row.role = std::count(o.check_fills.begin(), o.check_fills.end(), fill) > 0 ? Role::check : o.role;
       row.apparatus = "mixer";
       row.observable = "power";
       // Six digits are far more than the equation is good for, and read better.
@@ -272,9 +274,7 @@ void add_predict_command(CLI::App& app) {
   command->add_option("--mixing-time", o->mixing_time, "s: adds the energy of mixing")->check(CLI::PositiveNumber);
   command->add_flag("--json", o->json, "print JSON instead of tables");
   command->add_option("--out", o->out, "also write the powers as an observation table");
-  command->add_option("--role", o->role, "role of the rows in --out")
-      ->check(CLI::IsMember({"fit", "check"}))
-      ->capture_default_str();
+  add_role_option(command, o->role, "role of the rows in --out");
   command->add_option("--check-fills", o->check_fills, "fills whose rows in --out have the role check")->delimiter(',');
   command->add_flag(
       "--covariance", o->covariance,

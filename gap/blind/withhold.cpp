@@ -101,7 +101,7 @@ class Maker {
   }
 
   WithholdResult make() {
-    fit_ = rows_of(table_, "fit");
+    fit_ = rows_of(table_, Role::fit);
     read_isolability();
     for (int t = 0; t < static_cast<int>(truths_.size()); ++t)
       for (int d = 0; d < plan_.no_effect_draws; ++d) add({"none", "", t, {}, {}, {}});
@@ -311,7 +311,7 @@ class Maker {
     int n = 0;
     for (Index i = 0; i < simulated.size(); ++i) {
       const Observation& row = measured.rows[static_cast<std::size_t>(i)];
-      if (row.role != "check") continue;
+      if (row.role != Role::check) continue;
       sum += std::pow(simulated[i] / row.value - 1, 2) - std::pow(row.u / row.value, 2);
       ++n;
     }

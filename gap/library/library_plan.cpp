@@ -307,7 +307,7 @@ LibraryPlan LibraryPlan::read(const std::string& path, const std::vector<Effect>
     for (const TomlTable& r : tables_of(t, "rows")) {
       Observation row;
       row.apparatus = "bench";
-      row.role = "fit";
+      row.role = Role::fit;
       row.observable = t.text("observable");
       row.unit = *unit;
       toml::table plain = r.raw();

@@ -193,7 +193,7 @@ void add_variants(const Question& question, const Diagnosis& d, const Isolabilit
   }
 }
 
-bool is_simulated(const Observation& row) { return row.role == "check" && find_rig(row.apparatus); }
+bool is_simulated(const Observation& row) { return row.role == Role::check && find_rig(row.apparatus); }
 
 std::map<std::string, std::string> settings_asked(const std::vector<std::string>& texts) {
   std::map<std::string, std::string> asked;

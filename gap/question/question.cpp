@@ -39,11 +39,11 @@ std::map<std::string, double> known_effects(const std::vector<std::string>& text
   return effects;
 }
 
-std::vector<Eigen::Index> rows_of(const ReducedTable& table, const std::string& role) {
+std::vector<Eigen::Index> rows_of(const ReducedTable& table, Role role) {
   std::vector<Eigen::Index> keep;
   for (std::size_t i = 0; i < table.rows.size(); ++i)
     if (table.rows[i].role == role) keep.push_back(static_cast<Eigen::Index>(i));
-  if (keep.empty() && role == "fit")
+  if (keep.empty() && role == Role::fit)
     throw BadInput(table.path, 0, "holds no row of role fit", "a diagnosis rests on fit rows; mark some");
   return keep;
 }
@@ -112,7 +112,7 @@ Question::Question(QuestionOptions asked) : options(std::move(asked)), inputs(op
     check_reference();
   }
   model = model_of(inputs.emulator, reference ? reference->values : Eigen::VectorXd(), repeats_);
-  fit = model.part(rows_of(table, "fit"));
+  fit = model.part(rows_of(table, Role::fit));
   for (const std::string& name : options.without)
     if (std::none_of(inputs.effects.begin(), inputs.effects.end(), [&](const Effect& e) { return e.name == name; }))
       throw BadInput("--without " + name, 0, "is no effect", "name one of the effects' folder");
@@ -153,12 +153,12 @@ void Question::read_tables() {
   add_repeats(after, repeats_);
   // the reference is measured, all of it: roles are of the changed rows
   ReducedTable without_roles = both;
-  for (std::size_t i = 0; i < n; ++i) without_roles.rows[i].role = "reference";
+  for (std::size_t i = 0; i < n; ++i) without_roles.rows[i].role = Role::reference;
   const Averaged all = averaged(without_roles);
   joint_ = all.table;
   joint_count_ = all.count;
   std::size_t first_changed = 0;
-  while (first_changed < joint_.rows.size() && joint_.rows[first_changed].role == "reference") ++first_changed;
+  while (first_changed < joint_.rows.size() && joint_.rows[first_changed].role == Role::reference) ++first_changed;
   reference.emplace();
   reference->rows = {section(joint_, 0, first_changed),
                      {all.count.begin(), all.count.begin() + static_cast<std::ptrdiff_t>(first_changed)}};
@@ -223,7 +223,7 @@ TableModel Question::extended(const ReducedTable& added) const {
   const ReducedTable rows = joined(fit_table(), added);
   if (!reference) return by_itself(inputs.emulator, rows, repeats_);
   std::vector<int> count = reference->rows.count;
-  for (const Eigen::Index i : rows_of(table, "fit")) count.push_back(count_[static_cast<std::size_t>(i)]);
+  for (const Eigen::Index i : rows_of(table, Role::fit)) count.push_back(count_[static_cast<std::size_t>(i)]);
   count.insert(count.end(), added.rows.size(), 1);
   return given_reference(joint_model(inputs.emulator, joined(reference->rows.table, rows), count, repeats_),
                          reference->values, options.transfer, inputs.settings)
@@ -239,12 +239,12 @@ TableModel Question::with_such_a_reference() const {
 
 TableModel Question::before_data() const {
   const TableModel m =
-      reference ? model_of(inputs.emulator, reference->expected, its_repeats_).part(rows_of(table, "fit")) : fit;
+      reference ? model_of(inputs.emulator, reference->expected, its_repeats_).part(rows_of(table, Role::fit)) : fit;
   return m.in_logarithms(TableModel::Values::placeholders);
 }
 
 Threshold Question::threshold() const {
-  const auto keep = rows_of(table, "fit");
+  const auto keep = rows_of(table, Role::fit);
   return bootstrap_threshold(inputs.emulator, before_data(), inputs.settings, options.seed, [&](const Emulator& e) {
     return model_of(e, reference ? reference->expected : Eigen::VectorXd(), its_repeats_)
         .part(keep)
@@ -279,7 +279,7 @@ ReducedTable Question::fit_table() const {
   ReducedTable part = table;
   part.rows.clear();
   part.lines.clear();
-  const auto keep = rows_of(table, "fit");
+  const auto keep = rows_of(table, Role::fit);
   for (const Eigen::Index i : keep) {
     part.rows.push_back(table.rows[static_cast<std::size_t>(i)]);
     part.lines.push_back(table.lines[static_cast<std::size_t>(i)]);

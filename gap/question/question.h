@@ -91,6 +91,6 @@ class Question {
 };
 
 // Indices of the rows of a role. Errors: BadInput if it is fit and there is none.
-std::vector<Eigen::Index> rows_of(const ReducedTable& table, const std::string& role);
+std::vector<Eigen::Index> rows_of(const ReducedTable& table, Role role);
 
 }  // namespace vielto::gap

@@ -23,7 +23,7 @@ constexpr int kAssumedDegrees = 3;
 
 std::string place_of(const Observation& row, bool with_role) {
   return fmt::format("{},{},{},{},{},{}", row.apparatus, row.observable, conditions_text(row), row.wall, row.material,
-                     with_role ? row.role : "");
+                     with_role ? text_of(row.role) : "");
 }
 
 // Row numbers of each group, in the order of their first rows.

@@ -22,7 +22,7 @@ std::vector<Observation> combinations(const std::string& apparatus, const std::s
     throw BadInput("--observable " + observable, 0, fmt::format("is none of apparatus '{}'", apparatus),
                    "take one of doc/reference/observation_table.md");
   Observation row;
-  row.role = "fit";
+  row.role = Role::fit;
   row.apparatus = apparatus;
   row.observable = observable;
   row.unit = *unit;

@@ -52,7 +52,7 @@ bool is_gap(const TableModel& model, double log_odds, const Threshold& threshold
   return log_odds > threshold.log_odds || fit_probability(model, ModelEvidence()) < settings.misfit_probability;
 }
 
-std::vector<Index> rows_with_role(const TableModel& model, const char* role) {
+std::vector<Index> rows_with_role(const TableModel& model, Role role) {
   std::vector<Index> keep;
   for (std::size_t i = 0; i < model.rows.size(); ++i)
     if (model.rows[i].role == role) keep.push_back(static_cast<Index>(i));
@@ -238,17 +238,17 @@ Shrink shrink_of(const CheckRows& rows, const SimulatedRows& before, const Simul
 }
 
 std::optional<Shrink> predicted_shrink(const TableModel& model, const Diagnosis& d, const Isolability& isolability) {
-  const auto check = rows_with_role(model, "check");
+  const auto check = rows_with_role(model, Role::check);
   const auto applied = d.applied();
   if (check.empty() || applied.empty()) return std::nullopt;
-  const TableModel fit = model.part(rows_with_role(model, "fit"));
+  const TableModel fit = model.part(rows_with_role(model, Role::fit));
   // Recalibration: the shift of the family that the fit rows ask for, to first order.
   const auto simulated = [&](const std::vector<std::string>& effects, const std::vector<double>& strengths,
                              bool recalibrate) {
     VectorXd y = mean_at(model, responses(model, effects), strengths) - model.family_shift;
     if (recalibrate && model.family_weights.size() > 0) {
       const auto response = responses(fit, effects);
-      const MatrixXd cross = (model.family)(Eigen::all, rows_with_role(model, "fit"));
+      const MatrixXd cross = (model.family)(Eigen::all, rows_with_role(model, Role::fit));
       const VectorXd rest = fit.observed - mean_at(fit, response, strengths);
       y += model.family_shift + cross * covariance_at(fit, response, strengths).llt().solve(rest);
     }
@@ -271,7 +271,7 @@ std::optional<Shrink> predicted_shrink(const TableModel& model, const Diagnosis&
 }
 
 Diagnosis diagnose(const TableModel& model, const Threshold& threshold, const Settings& settings) {
-  const TableModel fit = model.part(rows_with_role(model, "fit")).in_logarithms(TableModel::Values::measured);
+  const TableModel fit = model.part(rows_with_role(model, Role::fit)).in_logarithms(TableModel::Values::measured);
   Diagnosis d;
   d.fit_rows = static_cast<int>(fit.size());
   d.check_rows = static_cast<int>(model.size()) - d.fit_rows;

@@ -28,7 +28,7 @@ struct Rows {
 
   explicit Rows(const TableModel& natural) : model(natural.in_logarithms(TableModel::Values::measured)) {
     for (Index i = 0; i < model.size(); ++i)
-      if (model.rows[static_cast<std::size_t>(i)].role == "fit") fit.push_back(i);
+      if (model.rows[static_cast<std::size_t>(i)].role == Role::fit) fit.push_back(i);
   }
 
   std::vector<const EffectResponse*> responses(const std::vector<std::string>& names) const {
@@ -128,7 +128,7 @@ void add_points(json& diagnosis, const Points& p) {
   json& list = diagnosis["points"] = json::array();
   for (const ComparedRow& point : p.points) {
     json j = {{"test", point.row.test},
-              {"role", point.row.role},
+              {"role", text_of(point.row.role)},
               {"apparatus", point.row.apparatus},
               {"observable", point.row.observable},
               {"unit", point.row.unit}};

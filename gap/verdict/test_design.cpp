@@ -73,7 +73,7 @@ std::vector<CandidateTest> read_candidate_tests(const std::string& path) {
       r.only({"observable", "u", "relative_u"});
       Observation row;
       row.test = test.name;
-      row.role = "fit";
+      row.role = Role::fit;
       row.apparatus = test.apparatus;
       row.observable = r.text("observable");
       const auto unit = observable_unit(row.apparatus, row.observable);

@@ -37,7 +37,7 @@ struct LawParameter {
 };
 
 struct Law {
-  std::string name;     // -var law NAME
+  std::string name;     // -var law NAME; no enum: which laws there are is which files are linked in (CMakeLists.txt)
   std::string summary;  // one sentence
   std::string source;   // where it comes from
   std::string header;   // where its equations stand

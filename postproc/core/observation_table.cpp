@@ -53,12 +53,15 @@ struct Place {
   }
 };
 
+[[noreturn]] void refuse_role(std::string_view text, const Place& place) {
+  place.refuse("role", fmt::format("'{}' is no role", text), "write 'fit' or 'check'");
+}
+
 // Checks that need the whole table: keys once, rows of one test under the same conditions.
 class TableCheck {
  public:
   void add(const Observation& row, const Place& place) {
     for (const auto& [column, text] : {std::pair<const char*, const std::string&>{"test", row.test},
-                                       {"role", row.role},
                                        {"apparatus", row.apparatus},
                                        {"observable", row.observable},
                                        {"unit", row.unit},
@@ -66,8 +69,7 @@ class TableCheck {
                                        {"material", row.material}})
       place.name(column, text);
     if (row.test.empty()) place.refuse("test", "is empty", "name the test");
-    if (row.role != "fit" && row.role != "check")
-      place.refuse("role", fmt::format("'{}' is no role", row.role), "write 'fit' or 'check'");
+    if (!role_of(text_of(row.role))) refuse_role(text_of(row.role), place);
     const auto unit = observable_unit(row.apparatus, row.observable);
     if (!unit) refuse_observable(row, place);
     if (row.unit != *unit)
@@ -143,7 +145,9 @@ void read_rows(const std::string& path, const std::string& header, Use use) {
 Observation parsed(const Place& place, const std::vector<std::string_view>& f) {
   Observation row;
   row.test = f[0];
-  row.role = f[1];
+  const std::optional<Role> role = role_of(f[1]);
+  if (!role) refuse_role(f[1], place);
+  row.role = *role;
   row.apparatus = f[2];
   row.observable = f[3];
   row.value = place.number("value", f[4]);
@@ -160,6 +164,24 @@ Observation parsed(const Place& place, const std::vector<std::string_view>& f) {
 }
 
 }  // namespace
+
+const char* text_of(Role role) {
+  switch (role) {
+    case Role::fit:
+      return "fit";
+    case Role::check:
+      return "check";
+    case Role::reference:
+      break;
+  }
+  return "reference";
+}
+
+std::optional<Role> role_of(std::string_view text) {
+  for (const Role role : {Role::fit, Role::check})
+    if (text == text_of(role)) return role;
+  return std::nullopt;
+}
 
 std::optional<std::string> observable_unit(const std::string& apparatus, const std::string& observable) {
   const NamedObservable* found = find_observable(apparatus, observable);
@@ -216,7 +238,7 @@ void write_observations(const std::string& path, const std::vector<Observation>&
   int line = 1;
   for (const Observation& row : rows) {
     check.add(row, Place{path, ++line});
-    text += fmt::format("{},{},{},{},{},{},{}", row.test, row.role, row.apparatus, row.observable,
+    text += fmt::format("{},{},{},{},{},{},{}", row.test, text_of(row.role), row.apparatus, row.observable,
                         number_text(row.value), number_text(row.u), row.unit);
     for (const NamedCondition& c : kConditions) text += "," + (row.*c.member ? number_text(*(row.*c.member)) : "");
     text += fmt::format(",{},{}\n", row.wall, row.material);

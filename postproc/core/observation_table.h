@@ -17,13 +17,21 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace vielto {
 
+// fit: may be used to attribute; check: held out; reference: measured before the change that is asked about, which no
+// file says: it is told by the options.
+enum class Role { fit, check, reference };
+const char* text_of(Role role);
+// Of a table's column; nothing for another text than fit and check.
+std::optional<Role> role_of(std::string_view text);
+
 struct Observation {
   std::string test;
-  std::string role;  // fit: may be used to attribute; check: held out
+  Role role = Role::fit;
   std::string apparatus;
   std::string observable;
   double value = 0;
@@ -42,7 +50,9 @@ struct Observation {
 
 // What a program is told of a test, beside what the run itself knows.
 struct TestLabel {
-  std::string test, role, wall;
+  std::string test;
+  Role role = Role::fit;
+  std::string wall;
   std::optional<double> moisture;  // 1, wet basis
 };
 

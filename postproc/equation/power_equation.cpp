@@ -121,8 +121,8 @@ PowerData power_data(const std::vector<ReducedTable>& tables, const std::vector<
       const PowerRow row{table.path, line,
                          o,          mixer,
                          grain,      groups_of(*o.fill, *o.speed, mixer, grain, find_material(materials, o.wall))};
-      if (o.role == "fit") index[i] = static_cast<int>(data.fit.size());
-      (o.role == "fit" ? data.fit : data.check).push_back(row);
+      if (o.role == Role::fit) index[i] = static_cast<int>(data.fit.size());
+      (o.role == Role::fit ? data.fit : data.check).push_back(row);
     }
     if (!any)
       throw BadInput(table.path, 0, "holds no mixer power", "add rows of power, or of power_loaded and power_idle");

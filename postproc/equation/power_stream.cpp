@@ -106,7 +106,7 @@ PowerStream::PowerStream(const std::vector<std::string>& tables, const std::vect
 }
 
 void PowerStream::add(const PowerRow& row) {
-  const bool check = row.observation.role == "check";
+  const bool check = row.observation.role == Role::check;
   Row out;
   out.check = check ? 1 : 0;
   out.power = row.observation.value;

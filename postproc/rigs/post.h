@@ -18,7 +18,7 @@ struct PostInput {
   std::string record;
   std::string idle;  // record of the empty machine, for a rig that takes one; may be empty
   int turns = kLeastAveragedTurns;
-  TestLabel label{"", "fit", "", {}};
+  TestLabel label;
 
   // The run folder. Empty: where the program was started.
   std::string run() const;

@@ -75,7 +75,7 @@ TEST_F(ImportSurface, WritesThreeRowsUnderTheirConditions) {
     EXPECT_EQ(table[k].observable, names[k]);
     EXPECT_EQ(table[k].u, u[k]);
     EXPECT_EQ(table[k].apparatus, "drum");
-    EXPECT_EQ(table[k].role, "check");
+    EXPECT_EQ(table[k].role, vielto::Role::check);
     EXPECT_EQ(table[k].speed, 0.5);
     EXPECT_EQ(table[k].fill, 0.505);
     EXPECT_EQ(table[k].tilt, 0.0);

@@ -93,7 +93,7 @@ TEST_F(ImportYade, PowerIsThatOfTheMeanTorque) {
   const vielto::Observation row = rows()[0];
   EXPECT_NEAR(row.value, 2 * kPi * 1.25 * 2, 1e-9);
   EXPECT_EQ(row.test, "A");
-  EXPECT_EQ(row.role, "check");
+  EXPECT_EQ(row.role, vielto::Role::check);
   EXPECT_EQ(row.apparatus, "mixer");
   EXPECT_EQ(row.observable, "power");
   EXPECT_EQ(row.speed, 1.25);

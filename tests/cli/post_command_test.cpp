@@ -127,7 +127,7 @@ TEST_F(PostCommand, ObservationRowsCarryTheConditions) {
   EXPECT_EQ(rows[3].observable, "paddle_share_entering");
   EXPECT_EQ(rows[4].observable, "paddle_share_leaving");
   EXPECT_EQ(rows[0].test, "M7");
-  EXPECT_EQ(rows[0].role, "check");
+  EXPECT_EQ(rows[0].role, vielto::Role::check);
   EXPECT_EQ(rows[0].apparatus, "mixer");
   EXPECT_EQ(rows[0].observable, "power");
   EXPECT_EQ(rows[0].unit, "W");

@@ -15,6 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using vielto::Observation;
+using vielto::Role;
 
 const std::string kHeader =
     "test,role,apparatus,observable,value,u,unit,speed,fill,moisture,normal_stress,shear_velocity,tilt,wall,material";
@@ -59,7 +60,7 @@ TEST_F(ObservationTable, ReadsEveryColumnAndLeavesEmptyOnesEmpty) {
                          "s1,check,shearbox,shear_stress_peak,1.2e4,300,Pa,,,0.089,19610,2e-05,,,hulled_millet\n");
   ASSERT_EQ(rows.size(), 2u);
   EXPECT_EQ(rows[0].test, "A45-1");
-  EXPECT_EQ(rows[0].role, "fit");
+  EXPECT_EQ(rows[0].role, Role::fit);
   EXPECT_EQ(rows[0].apparatus, "drum");
   EXPECT_EQ(rows[0].observable, "angle");
   EXPECT_EQ(rows[0].value, 42.96);
@@ -113,10 +114,23 @@ TEST_F(ObservationTable, EveryObservableOfTheProtocolHasItsUnit) {
   EXPECT_FALSE(vielto::observable_unit("oven", "bulk_density"));
 }
 
+// A program's own role is none of a file.
+TEST_F(ObservationTable, ARowOfAReferenceIsNotWritten) {
+  Observation row;
+  row.test = "t", row.role = Role::reference, row.apparatus = "repose", row.observable = "angle";
+  row.value = 26, row.u = 1, row.unit = "deg";
+  try {
+    vielto::write_observations(path_, {row});
+    FAIL() << "a role was written that the reader refuses";
+  } catch (const std::exception& e) {
+    EXPECT_NE(std::string(e.what()).find("line 2, column role: 'reference' is no role"), std::string::npos) << e.what();
+  }
+}
+
 TEST_F(ObservationTable, WrittenRowsReadBackExactly) {
   Observation row;
   row.test = "p\xc3\xa1l-1";
-  row.role = "check";
+  row.role = Role::check;
   row.apparatus = "mixer";
   row.observable = "power";
   row.value = 100.0 / 3;
@@ -236,7 +250,7 @@ TEST_F(ObservationTable, RefusesAMissingFileAnotherHeaderAndAnEmptyTable) {
 TEST_F(ObservationTable, WritesNothingForARowTheReaderWouldRefuse) {
   Observation row;
   row.test = "a";
-  row.role = "fit";
+  row.role = Role::fit;
   row.apparatus = "repose";
   row.observable = "angle";
   row.value = 26;

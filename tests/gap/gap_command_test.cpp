@@ -15,6 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 using vielto::Observation;
+using vielto::Role;
 using vielto_test::content;
 using vielto_test::GapFolder;
 
@@ -42,7 +43,7 @@ class GapCommand : public GapFolder {
   // The toy has no rigs: those of the repository lend their scripts. Mixer tests only.
   void keep_mixer_checks() {
     rows_.erase(std::remove_if(rows_.begin(), rows_.end(),
-                               [](const Observation& r) { return r.apparatus != "mixer" && r.role == "check"; }),
+                               [](const Observation& r) { return r.apparatus != "mixer" && r.role == Role::check; }),
                 rows_.end());
     write(rows_);
   }
@@ -119,7 +120,7 @@ TEST_F(GapCommand, NamesOfTestsDoNotMatter) {
 }
 
 TEST_F(GapCommand, WithoutCheckRowsItDiagnosesAndSaysThatTheShrinkCannotBeProved) {
-  for (Observation& row : rows_) row.role = "fit";
+  for (Observation& row : rows_) row.role = Role::fit;
   write(rows_);
   ASSERT_EQ(diagnose(), 0) << err_;
   EXPECT_NE(out_.find("cannot be proved"), std::string::npos) << out_;
@@ -132,7 +133,7 @@ TEST_F(GapCommand, WithoutCheckRowsItDiagnosesAndSaysThatTheShrinkCannotBeProved
 TEST_F(GapCommand, RefusesTablesWithOneClearLine) {
   expect_refusal_of_rows(
       [](auto& r) {
-        for (auto& row : r) row.role = "check";
+        for (auto& row : r) row.role = Role::check;
       },
       "t.csv: holds no row of role fit");
   expect_refusal_of_rows(
@@ -294,7 +295,7 @@ TEST_F(GapCommand, ARowWhoseBaselineIsZeroTakesPartInThePairs) {
       << fmt::format("bench_zero,none,0,1,{:064x},25,0.1\nbench_speed,none,0,1,{:064x},25,0.1\n", 999991, 999992);
   Observation zero;
   zero.test = "bench_zero";
-  zero.role = "fit";
+  zero.role = Role::fit;
   zero.apparatus = "bench";
   zero.observable = "zero_drift";
   zero.unit = "W";
@@ -494,7 +495,7 @@ TEST_F(GapCommand, ConfirmPrintsTheCommandsOfEveryCheckTest) {
 TEST_F(GapCommand, ConfirmHandsNoTestsNameToAShell) {
   keep_mixer_checks();
   for (Observation& row : rows_)
-    if (row.role == "check") row.test += fmt::format(";touch {};b it's 7", (folder_ / "touched").string());
+    if (row.role == Role::check) row.test += fmt::format(";touch {};b it's 7", (folder_ / "touched").string());
   write(rows_);
   fs::create_directory(folder_ / "bin");
   std::ofstream(folder_ / "bin/liggghts")
@@ -547,9 +548,9 @@ TEST_F(GapCommand, ConfirmRunsWhatTheLibraryIsMadeOf) {
 
 // A bench row is simulated by no rig: nothing would be measured.
 TEST_F(GapCommand, ConfirmWantsACheckRowThatCanBeSimulated) {
-  for (Observation& row : rows_) row.role = "fit";
+  for (Observation& row : rows_) row.role = Role::fit;
   Observation bench = rows_[0];
-  bench.test = "plate", bench.role = "check", bench.apparatus = "bench", bench.observable = "restitution",
+  bench.test = "plate", bench.role = Role::check, bench.apparatus = "bench", bench.observable = "restitution",
   bench.unit = "1";
   bench.value = 0.6, bench.u = 0.03;
   bench.speed.reset(), bench.fill.reset();
@@ -701,7 +702,8 @@ TEST_F(GapCommand, AKnownEffectIsInEveryRun) {
 // Replicates are one run: a fourth check test under the conditions of another needs none of its own.
 TEST_F(GapCommand, ConfirmRunsEqualConditionsOnce) {
   keep_mixer_checks();
-  const auto check = std::find_if(rows_.begin(), rows_.end(), [](const Observation& r) { return r.role == "check"; });
+  const auto check =
+      std::find_if(rows_.begin(), rows_.end(), [](const Observation& r) { return r.role == Role::check; });
   ASSERT_NE(check, rows_.end());
   Observation replicate = *check;
   replicate.test = "replicate";

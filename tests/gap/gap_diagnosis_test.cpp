@@ -57,7 +57,7 @@ class GapDiagnosis : public testing::Test {
   static TableModel fit_model(const TableModel& m) {
     std::vector<Eigen::Index> keep;
     for (std::size_t i = 0; i < m.rows.size(); ++i)
-      if (m.rows[i].role == "fit") keep.push_back(static_cast<Eigen::Index>(i));
+      if (m.rows[i].role == Role::fit) keep.push_back(static_cast<Eigen::Index>(i));
     return m.part(keep).in_logarithms(TableModel::Values::measured);
   }
 

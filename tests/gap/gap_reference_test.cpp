@@ -24,6 +24,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using nlohmann::json;
 using vielto::Observation;
+using vielto::Role;
 using vielto_test::content;
 
 Settings settings() { return Settings::read(VIELTO_SOURCE_DIR "/libraries/diagnosis.toml"); }
@@ -149,7 +150,7 @@ TEST(GapRepeats, PooledScatterByHand) {
   const double values[] = {9, 10, 11, 20, 22};
   for (int i = 0; i < 5; ++i) {
     Observation row;
-    row.test = fmt::format("t{}", i), row.role = "fit", row.apparatus = "mixer", row.observable = "power";
+    row.test = fmt::format("t{}", i), row.role = Role::fit, row.apparatus = "mixer", row.observable = "power";
     row.value = values[i], row.u = 0.1, row.speed = i < 3 ? 1 : 2;
     table.rows.push_back(row);
     table.lines.push_back(i + 2);

@@ -15,6 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 using vielto::Observation;
+using vielto::Role;
 using vielto_test::content;
 using vielto_test::GapFolder;
 
@@ -188,7 +189,7 @@ TEST_F(GapSharedErrors, WhatIsNotFiniteStops) {
   fs::copy(VIELTO_SOURCE_DIR "/libraries/millet", folder_ / "millet");
   fs::remove(folder_ / "millet/inputs.csv");
   Observation drift;
-  drift.test = "idle", drift.role = "fit", drift.apparatus = "bench", drift.observable = "zero_drift";
+  drift.test = "idle", drift.role = Role::fit, drift.apparatus = "bench", drift.observable = "zero_drift";
   drift.value = 1e200, drift.u = 1, drift.unit = "W", drift.speed = 0.48;
   vielto::write_observations((folder_ / "t.csv").string(), {drift});
   const std::string options = " t.csv --library millet --draws 100";

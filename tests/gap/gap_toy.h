@@ -70,7 +70,7 @@ inline std::vector<vielto::Observation> rows(const std::vector<double>& speeds, 
                                              const std::vector<double>& velocities) {
   std::vector<vielto::Observation> result;
   vielto::Observation row;
-  row.role = "fit";
+  row.role = vielto::Role::fit;
   row.material = "toy";
   for (const double l : fills)
     for (const double n : speeds)
@@ -191,7 +191,7 @@ inline std::vector<vielto::Observation> measured(const State& state, std::mt1993
     const double truth = value(row, state);
     row.u = relative_u * truth;
     row.value = truth * (1 + seed_noise(row) * normal(random)) + row.u * normal(random);
-    if (row.fill && *row.fill == 0.15) row.role = "check";
+    if (row.fill && *row.fill == 0.15) row.role = vielto::Role::check;
   }
   return result;
 }
