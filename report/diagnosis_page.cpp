@@ -9,8 +9,10 @@
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "core/bad_input.h"
+#include "gap/answer/verdict.h"
 #include "report/diagnosis_plots.h"
 #include "report/json_table.h"
 
@@ -23,6 +25,7 @@ constexpr double kFalseDiscoveries = 0.05;
 constexpr std::size_t kShownCauses = 8;
 constexpr double kShownProbability = 0.01, kShownPair = 0.1;
 constexpr std::size_t kListedCauses = 30;
+constexpr const char* kMend = "make it again with vielto gap diagnose";
 
 std::string text(const json& j, const char* key) { return j.at(key).get<std::string>(); }
 double number(const json& j, const char* key) { return j.at(key).get<double>(); }
@@ -285,15 +288,14 @@ std::string next_test_words(const json& t) {
 }
 
 // The numbers that a manager looks for first.
-void add_figures(const json& d, Page& page) {
-  const std::string verdict = text(d, "verdict");
-  const std::map<std::string, const char*> words = {{"no_gap", "No gap"},
-                                                    {"named", "Cause named"},
-                                                    {"ambiguous", "Cause not settled"},
-                                                    {"unknown", "Cause not in the library"}};
+void add_figures(const json& d, Verdict verdict, Page& page) {
+  const std::map<Verdict, const char*> words = {{Verdict::no_gap, "No gap"},
+                                                {Verdict::named, "Cause named"},
+                                                {Verdict::ambiguous, "Cause not settled"},
+                                                {Verdict::unknown, "Cause not in the library"}};
   const auto rows = d.value("rows", json::object());
   page.figures.push_back(
-      {"Verdict", words.count(verdict) ? words.at(verdict) : verdict,
+      {"Verdict", words.at(verdict),
        fmt::format("{} rows to attribute, {} held out", rows.value("fit", 0), rows.value("check", 0))});
   if (const json* r = worst_region(d.at("where")))
     page.figures.push_back(
@@ -301,16 +303,16 @@ void add_figures(const json& d, Page& page) {
          fmt::format("{} ± {}", percent(number(*r, "relative_gap"), "{:+.0f} %"), percent(number(*r, "u"))),
          place(*r) + ", " + text(*r, "region")});
   for (const auto& [p, name] : causes(d)) {
-    if (name == "no_gap" && verdict != "no_gap") continue;
-    page.figures.push_back({verdict == "no_gap" ? "Probability of no gap" : "Likeliest cause",
-                            verdict == "no_gap" ? percent(number(d["probabilities"], "no_gap")) : cause(name),
-                            verdict == "no_gap" ? "" : percent(p)});
+    if (name == "no_gap" && verdict != Verdict::no_gap) continue;
+    page.figures.push_back({verdict == Verdict::no_gap ? "Probability of no gap" : "Likeliest cause",
+                            verdict == Verdict::no_gap ? percent(number(d["probabilities"], "no_gap")) : cause(name),
+                            verdict == Verdict::no_gap ? "" : percent(p)});
     break;
   }
   page.figures.push_back(
       {"Recalibration could absorb", percent(number(d, "absorbable_by_recalibration")), "of the gap"});
   const char* key = d.at("shrink").is_null() ? "shrink_predicted" : "shrink";
-  if (const json s = d.value(key, json()); !s.is_null() && verdict != "unknown")
+  if (const json s = d.value(key, json()); !s.is_null() && verdict != Verdict::unknown)
     page.figures.push_back({"Gap on held-out tests",
                             fmt::format("{} → {}", percent(number(s, "before")), percent(number(s, "after"))),
                             key == std::string("shrink") ? "simulated again with the effect" : "predicted, no proof"});
@@ -319,8 +321,8 @@ void add_figures(const json& d, Page& page) {
         {"Next test", cause(text(d["next_test"], "name")), fmt::format("{:g} h", number(d["next_test"], "hours"))});
 }
 
-void add_summary(const json& d, Page& page) {
-  const bool none = d.at("verdict") == "no_gap";
+void add_summary(const json& d, Verdict verdict, Page& page) {
+  const bool none = verdict == Verdict::no_gap;
   const double absorbable = number(d, "absorbable_by_recalibration");
   page.summary.push_back(
       {none ? fmt::format("{} of the difference that is seen lies within what recalibration could take up.",
@@ -333,7 +335,7 @@ void add_summary(const json& d, Page& page) {
   if (const std::string close = close_call(d.at("log_odds")); !close.empty())
     page.summary.push_back({close, Paragraph::Tone::warning});
   const json trends = d.value("trends", json::array());
-  if (none || d.at("verdict") == "unknown")
+  if (none || verdict == Verdict::unknown)
     for (const std::string& line : trends_found(trends, none ? "But a trend is off" : "What is off is a trend"))
       page.summary.push_back({line, Paragraph::Tone::warning});
   if (none)
@@ -421,8 +423,7 @@ void add_details(const json& d, Page& page) {
   page.sections.push_back(std::move(provenance));
 }
 
-void add_sections(const json& d, const std::string& name, Page& page) {
-  const std::string verdict = text(d, "verdict");
+void add_sections(const json& d, Verdict verdict, const std::string& name, Page& page) {
   if (d.contains("reference") && !d["reference"].is_null())
     page.sections.push_back(
         {"The reference state",
@@ -440,11 +441,11 @@ void add_sections(const json& d, const std::string& name, Page& page) {
   page.sections.push_back(std::move(map));
 
   Section which{"Which cause", {ranking(d)}};
-  if (verdict == "ambiguous" && !has_strengths(d)) which.blocks.push_back(strengths_table(d));
+  if (verdict == Verdict::ambiguous && !has_strengths(d)) which.blocks.push_back(strengths_table(d));
   page.sections.push_back(std::move(which));
 
   Section far{"How far the gap closes", {}};
-  if (!d.at("shrink").is_null()) add_shrink(d["shrink"], "simulated again", verdict != "unknown", far);
+  if (!d.at("shrink").is_null()) add_shrink(d["shrink"], "simulated again", verdict != Verdict::unknown, far);
   if (const json s = d.value("shrink_predicted", json()); !s.is_null())
     add_shrink(s, "predicted by the emulator, no proof", true, far);
   if (far.blocks.empty())
@@ -455,8 +456,9 @@ void add_sections(const json& d, const std::string& name, Page& page) {
   if (!d.at("next_test").is_null())
     next.blocks.push_back(Paragraph{next_test_words(d["next_test"])});
   else
-    next.blocks.push_back(Paragraph{verdict == "no_gap" ? "None: there is no proven gap whose cause a test could tell."
-                                                        : "None is needed to tell effects apart."});
+    next.blocks.push_back(Paragraph{verdict == Verdict::no_gap
+                                        ? "None: there is no proven gap whose cause a test could tell."
+                                        : "None is needed to tell effects apart."});
   page.sections.push_back(std::move(next));
   if (const json notes = d.value("notes", json::array()); !notes.empty()) {
     Section section{"Notes", {}, true};
@@ -476,12 +478,14 @@ void add_diagnosis(const json& d, const std::string& path, const std::string& na
   try {
     page.sentence = text(d, "sentence");
     std::replace(page.sentence.begin(), page.sentence.end(), '_', ' ');
-    add_figures(d, page);
-    add_summary(d, page);
-    add_sections(d, name, page);
+    const std::optional<Verdict> verdict = verdict_of(text(d, "verdict"));
+    if (!verdict)
+      throw BadInput(path, 0, fmt::format("is no diagnosis (its verdict is '{}')", text(d, "verdict")), kMend);
+    add_figures(d, *verdict, page);
+    add_summary(d, *verdict, page);
+    add_sections(d, *verdict, name, page);
   } catch (const json::exception& error) {
-    throw BadInput(path, 0, fmt::format("is no diagnosis ({})", error.what()),
-                   "make it again with vielto gap diagnose");
+    throw BadInput(path, 0, fmt::format("is no diagnosis ({})", error.what()), kMend);
   }
 }
 

@@ -16,6 +16,8 @@
 #include "core/bad_input.h"
 #include "core/seal.h"
 #include "core/sha256.h"
+#include "gap/answer/verdict.h"
+#include "gap/blind/case_kind.h"
 #include "gap/question/sealed.h"
 
 namespace vielto::gap {
@@ -34,20 +36,29 @@ json read_json(const fs::path& path, const char* mend) {
 
 struct Scored {
   json truth, answer;
+  CaseKind kind = CaseKind::none;
+  Verdict verdict = Verdict::no_gap;
   Names effects;            // true ones, sorted
   Names group;              // what can stand in for the one true effect at its strength
   bool detectable = false;  // at its strength
-  std::string kind() const { return truth["kind"]; }
   bool strong() const { return truth["level"] == "strong"; }
-  std::string verdict() const { return answer["verdict"]; }
   Names named() const { return answer["named"]; }
   // The name of the true model among the probabilities.
   std::string true_model() const {
-    if (kind() == "none") return "no_gap";
-    if (kind() == "removed") return "unknown";
+    if (kind == CaseKind::none) return text_of(Verdict::no_gap);
+    if (kind == CaseKind::removed) return text_of(Verdict::unknown);
     return effects.size() == 2 ? effects[0] + "+" + effects[1] : effects[0];
   }
 };
+
+template <class Word>
+Word word_of(const json& j, const char* key, std::optional<Word> (*read)(std::string_view), const std::string& path,
+             const char* mend) {
+  const std::string text = j.value(key, "");
+  const std::optional<Word> word = read(text);
+  if (!word) throw BadInput(path, 0, fmt::format("states the {} '{}'", key, text), mend);
+  return *word;
+}
 
 // The sealed truths, each checked against its seal.
 std::vector<json> read_truths(const fs::path& folder) {
@@ -94,7 +105,10 @@ std::vector<Scored> read_cases(const fs::path& folder, const fs::path& answers, 
     c.answer = read_json(answers / ids[i] / "diagnosis.json", "diagnose every case into ANSWERS/CASE");
     for (const auto& entry : c.truth["effects"].items()) c.effects.push_back(entry.key());
     std::sort(c.effects.begin(), c.effects.end());
-    check_fingerprint(c.answer, (answers / ids[i] / "diagnosis.json").string(), sealed.value("fingerprint", ""));
+    const std::string answer = (answers / ids[i] / "diagnosis.json").string();
+    c.kind = word_of(c.truth, "kind", case_kind_of, folder.string(), "bring the sealed truth back");
+    c.verdict = word_of(c.answer, "verdict", verdict_of, answer, "diagnose the case again");
+    check_fingerprint(c.answer, answer, sealed.value("fingerprint", ""));
     if (c.effects.size() == 1) {
       const double strength = c.truth["effects"][c.effects[0]]["strength"];
       c.group = isolability.group_of(c.effects[0], strength);
@@ -153,8 +167,8 @@ Pick pick(const std::vector<Scored>& cases, const Counts& counts) {
   return picked;
 }
 
-Counts kind(const char* name) {
-  return [name](const Scored& c) { return c.kind() == name; };
+Counts of_kind(CaseKind kind) {
+  return [kind](const Scored& c) { return c.kind == kind; };
 }
 
 void add_proportion(json& into, const std::string& key, const Pick& picked, const Counts& success) {
@@ -176,11 +190,11 @@ void add_pooled(json& into, const std::string& key, const Pick& picked,
   into[key + "_n"] = picked.size();
 }
 
-bool is_right(const Scored& c) { return c.verdict() == "named" && c.named() == c.effects; }
+bool is_right(const Scored& c) { return c.verdict == Verdict::named && c.named() == c.effects; }
 
 bool is_in_group(const Scored& c) {
-  if (c.verdict() == "named") return c.named().size() == 1 && holds(c.group, c.named()[0]);
-  if (c.verdict() != "ambiguous") return false;
+  if (c.verdict == Verdict::named) return c.named().size() == 1 && holds(c.group, c.named()[0]);
+  if (c.verdict != Verdict::ambiguous) return false;
   const Names stated = c.answer["group"];
   return holds(stated, c.effects[0]) &&
          std::all_of(stated.begin(), stated.end(), [&](const std::string& s) { return holds(c.group, s); });
@@ -198,22 +212,24 @@ bool is_covered(const Scored& c) {
 }
 
 void add_rates(json& result, const std::vector<Scored>& cases) {
-  const auto strong = [](const Scored& c) { return c.kind() == "known" && c.strong(); };
+  const auto strong = [](const Scored& c) { return c.kind == CaseKind::known && c.strong(); };
   add_proportion(result, "right",
                  pick(cases, [&](const Scored& c) { return strong(c) && c.detectable && c.group.size() == 1; }),
                  is_right);
   add_proportion(result, "in_group", pick(cases, [&](const Scored& c) { return strong(c) && c.detectable; }),
                  is_in_group);
   add_proportion(result, "wrong_name",
-                 pick(cases, [](const Scored& c) { return c.kind() != "none" && c.kind() != "removed"; }), is_wrong);
-  add_proportion(result, "false_alarm", pick(cases, kind("none")),
-                 [](const Scored& c) { return c.verdict() != "no_gap"; });
-  const Pick removed = pick(cases, kind("removed"));
-  add_proportion(result, "unknown_found", removed, [](const Scored& c) { return c.verdict() == "unknown"; });
-  add_proportion(result, "removed_named", removed, [](const Scored& c) { return c.verdict() == "named"; });
+                 pick(cases, [](const Scored& c) { return c.kind != CaseKind::none && c.kind != CaseKind::removed; }),
+                 is_wrong);
+  add_proportion(result, "false_alarm", pick(cases, of_kind(CaseKind::none)),
+                 [](const Scored& c) { return c.verdict != Verdict::no_gap; });
+  const Pick removed = pick(cases, of_kind(CaseKind::removed));
+  add_proportion(result, "unknown_found", removed, [](const Scored& c) { return c.verdict == Verdict::unknown; });
+  add_proportion(result, "removed_named", removed, [](const Scored& c) { return c.verdict == Verdict::named; });
   add_proportion(
       result, "coverage90",
-      pick(cases, [](const Scored& c) { return c.kind() == "prior" && c.answer["strength"].contains(c.effects[0]); }),
+      pick(cases,
+           [](const Scored& c) { return c.kind == CaseKind::prior && c.answer["strength"].contains(c.effects[0]); }),
       is_covered);
 }
 
@@ -248,12 +264,12 @@ double closure(const Pick& p) {
 }
 
 void add_closures(json& result, const std::vector<Scored>& cases) {
-  const Pick strong = pick(cases, [](const Scored& c) { return c.kind() == "known" && c.strong(); });
+  const Pick strong = pick(cases, [](const Scored& c) { return c.kind == CaseKind::known && c.strong(); });
   // without a gap there is nothing to simulate again
   const auto wanted =
-      std::count_if(strong.begin(), strong.end(), [](const Scored* c) { return c->verdict() != "no_gap"; });
+      std::count_if(strong.begin(), strong.end(), [](const Scored* c) { return c->verdict != Verdict::no_gap; });
   const auto measured = std::count_if(strong.begin(), strong.end(), [](const Scored* c) {
-    return c->verdict() != "no_gap" && !c->answer["shrink"].is_null();
+    return c->verdict != Verdict::no_gap && !c->answer["shrink"].is_null();
   });
   add_pooled(result, "closure", strong, closure);
   add_pooled(result, "placebo", strong,
@@ -302,7 +318,7 @@ void add_by_strength(json& result, const std::vector<Scored>& cases, const Names
   };
   result["by_effect"] = json::object();
   for (const char* level : {"weak", "middle", "strong"}) {
-    const auto known = [level](const Scored& c) { return c.kind() == "known" && c.truth["level"] == level; };
+    const auto known = [level](const Scored& c) { return c.kind == CaseKind::known && c.truth["level"] == level; };
     for (const std::string& name : effects)
       if (const Pick own = pick(cases, [&](const Scored& c) { return known(c) && c.effects[0] == name; }); !own.empty())
         add(result["by_effect"][name][level], own);
@@ -325,10 +341,12 @@ json score(const std::vector<AnsweredCases>& sets, std::optional<std::uint64_t> 
   add_rates(result, cases);
   add_closures(result, cases);
   add_pooled(result, "brier", pick(cases, [](const Scored&) { return true; }), brier);
-  add_pooled(
-      result, "where_f1",
-      pick(cases, [](const Scored& c) { return c.kind() == "known" || c.kind() == "prior" || c.kind() == "pair"; }),
-      f1_of_regions);
+  add_pooled(result, "where_f1",
+             pick(cases,
+                  [](const Scored& c) {
+                    return c.kind == CaseKind::known || c.kind == CaseKind::prior || c.kind == CaseKind::pair;
+                  }),
+             f1_of_regions);
   add_by_strength(result, cases, {names.begin(), names.end()});
   return result;
 }

@@ -13,6 +13,7 @@
 #include "core/csv.h"
 #include "core/seal.h"
 #include "core/sha256.h"
+#include "gap/blind/case_kind.h"
 #include "gap/blind/power_signal.h"
 #include "gap/question/question.h"
 #include "gap/question/sealed.h"
@@ -65,7 +66,7 @@ Plan read_plan(const std::string& path) {
 using Effects = std::vector<std::pair<std::string, double>>;  // names and strengths in the truth's own terms
 
 struct Case {
-  std::string kind;   // none, known, removed, sham, pair, prior
+  CaseKind kind = CaseKind::none;
   std::string level;  // weak, middle, strong; empty
   int truth = 0;
   Effects effects;
@@ -104,7 +105,7 @@ class Maker {
     fit_ = rows_of(table_, Role::fit);
     read_isolability();
     for (int t = 0; t < static_cast<int>(truths_.size()); ++t)
-      for (int d = 0; d < plan_.no_effect_draws; ++d) add({"none", "", t, {}, {}, {}});
+      for (int d = 0; d < plan_.no_effect_draws; ++d) add({CaseKind::none, "", t, {}, {}, {}});
     std::vector<Case> strong;
     int next_truth = 0;
     for (const EffectResponse& e : candidates())
@@ -118,20 +119,20 @@ class Maker {
               ++result_.unreachable;
               continue;
             }
-            const Case& made = add({"known", level, truth, {{e.name, *s}}, {}, {}});
+            const Case& made = add({CaseKind::known, level, truth, {{e.name, *s}}, {}, {}});
             if (level == "strong") strong.push_back(made);
           }
         }
     std::shuffle(strong.begin(), strong.end(), random_);
     for (std::size_t i = 0; i < strong.size() && static_cast<int>(i) < plan_.removed; ++i) {
       Case c = strong[i];
-      c.kind = "removed";
+      c.kind = CaseKind::removed;
       c.without = group_of(c);
       add(c);
     }
     for (std::size_t i = 0; i < strong.size() && static_cast<int>(i) < plan_.sham; ++i) {
       Case c = strong[strong.size() - 1 - i];
-      c.kind = "sham";
+      c.kind = CaseKind::sham;
       // the group of another effect, at its strength in another strong case,
       // which the true one does not belong to
       std::vector<std::vector<std::string>> others;
@@ -154,7 +155,7 @@ class Maker {
       const auto s = strength_for(truth, a, plan_.levels[1].second, false),
                  t = strength_for(truth, b, plan_.levels[1].second, false);
       if (!s || !t || contains(group_of(truth, a, *s), b) || contains(group_of(truth, b, *t), a)) continue;
-      add({"pair", "middle", truth, {{a, *s}, {b, *t}}, {}, {}});
+      add({CaseKind::pair, "middle", truth, {{a, *s}, {b, *t}}, {}, {}});
       ++i;
     }
     for (int i = 0; i < plan_.from_prior; ++i) {
@@ -163,7 +164,7 @@ class Maker {
       const EffectResponse* own = truths_[truth].effect(e.name);
       if (!own) continue;
       const double s = std::uniform_real_distribution<double>(own->low, own->high)(random_);
-      add({"prior", "", truth, {{e.name, s}}, {}, {}});
+      add({CaseKind::prior, "", truth, {{e.name, s}}, {}, {}});
     }
     write();
     return result_;
@@ -335,8 +336,12 @@ class Maker {
                        json({{"schema", 1}, {"without", c.without}}).dump(2) + "\n");
       const TableModel& truth = truths_[c.truth];
       const VectorXd moved = change(truth, c.effects);
-      json j = {{"schema", 1},    {"case", id},       {"nonce", fmt::format("{:016x}", random_())},
-                {"kind", c.kind}, {"level", c.level}, {"base_truth", name_of_truth(c.truth)}};
+      json j = {{"schema", 1},
+                {"case", id},
+                {"nonce", fmt::format("{:016x}", random_())},
+                {"kind", text_of(c.kind)},
+                {"level", c.level},
+                {"base_truth", name_of_truth(c.truth)}};
       j["effects"] = json::object();
       Effects library_effects;
       for (const auto& [name, s] : c.effects) {

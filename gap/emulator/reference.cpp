@@ -148,7 +148,7 @@ TableModel given_reference(const TableModel& joint, const VectorXd& reference, d
   }
   std::vector<std::string> numerical;
   for (const EffectResponse& e : p.effects)
-    if (e.kind == "numerical") numerical.push_back(e.name);
+    if (e.kind == EffectKind::numerical) numerical.push_back(e.name);
   p = p.without(numerical);
   set_unknown_scale(p, settings);
   return p;

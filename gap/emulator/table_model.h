@@ -22,11 +22,13 @@
 #include <vector>
 
 #include "core/observation_table.h"
+#include "gap/library/effect.h"
 
 namespace vielto::gap {
 
 struct EffectResponse {
-  std::string name, unit, kind;
+  std::string name, unit;
+  EffectKind kind = EffectKind::dem;
   double low = 0, high = 0;  // prior range
   double shape_error = 0;
   Eigen::VectorXd strengths;                // k, ascending, 0 among them, closer together near 0

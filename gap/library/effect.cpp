@@ -276,6 +276,22 @@ const Transform* Effect::transform_of(const std::string& apparatus, const std::s
   return nullptr;
 }
 
+namespace {
+
+EffectKind kind_of(const TomlTable& file) {
+  const std::map<std::string, EffectKind> kinds = {{"dem", EffectKind::dem},
+                                                   {"geometry", EffectKind::geometry},
+                                                   {"measurement", EffectKind::measurement},
+                                                   {"numerical", EffectKind::numerical}};
+  const std::string text = file.text("kind");
+  const auto found = kinds.find(text);
+  if (found == kinds.end())
+    file.refuse("kind", fmt::format("'{}' is no kind", text), "write dem, geometry, measurement or numerical");
+  return found->second;
+}
+
+}  // namespace
+
 Effect read_effect(const std::string& path, const Settings& settings) {
   const TomlTable file = TomlTable::read(path);
   file.only({"name", "kind", "unit", "prior_low", "prior_high", "source", "shape_error", "apply"});
@@ -284,9 +300,7 @@ Effect read_effect(const std::string& path, const Settings& settings) {
   effect.name = file.text("name");
   if (effect.name != fs::path(path).stem().string() || effect.name.find_first_of("+, ") != std::string::npos)
     file.refuse("name", fmt::format("'{}' is not the file's name", effect.name), "name the file NAME.toml, one word");
-  effect.kind = file.text("kind");
-  if (effect.kind != "dem" && effect.kind != "geometry" && effect.kind != "measurement" && effect.kind != "numerical")
-    file.refuse("kind", fmt::format("'{}' is no kind", effect.kind), "write dem, geometry, measurement or numerical");
+  effect.kind = kind_of(file);
   effect.unit = file.text("unit");
   effect.source = file.text("source");
   effect.prior_low = file.number("prior_low", -1e12, 0);

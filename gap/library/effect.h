@@ -81,8 +81,12 @@ struct Transform {
   Reading reading(const Observation& row, double y, double strength) const;
 };
 
+// What it is of: the simulated physics, the machine's geometry, what an instrument reads, the model itself.
+enum class EffectKind { dem, geometry, measurement, numerical };
+
 struct Effect {
-  std::string path, name, kind, unit, source;  // kind: dem, geometry, measurement, numerical
+  std::string path, name, unit, source;
+  EffectKind kind = EffectKind::dem;
   double prior_low = 0, prior_high = 0;
   double shape_error = 0;
   std::vector<VarChange> vars;

@@ -146,24 +146,6 @@ std::string simulated_by(const std::string& command) {
   return std::regex_replace(command, place, "");
 }
 
-}  // namespace
-
-std::string text_of(Variant variant) {
-  switch (variant) {
-    case Variant::before:
-      return "before";
-    case Variant::recalibrated:
-      return "recalibrated";
-    case Variant::after:
-      return "after";
-    case Variant::placebo:
-      return "placebo";
-  }
-  return "";
-}
-
-namespace {
-
 VariantSettings settings_of(Variant variant, const ModelEvidence* m, const Question& question) {
   VariantSettings v;
   v.variant = variant;
@@ -521,7 +503,7 @@ Shrink measured_shrink(const Plan& plan, const Question& question) {
     SimulatedAgain again{row.test, row.observable, {}};
     for (const Variant variant : {Variant::before, Variant::recalibrated, Variant::after})
       if (const auto found = simulated.find(variant); found != simulated.end())
-        again.values.push_back({text_of(variant), found->second.value[i], found->second.u[i]});
+        again.values.push_back({variant, found->second.value[i], found->second.u[i]});
     s.runs.push_back(std::move(again));
   }
   return s;

@@ -14,13 +14,11 @@
 #include <string>
 #include <vector>
 
+#include "gap/answer/variant.h"
 #include "gap/question/question.h"
 #include "gap/verdict/diagnosis.h"
 
 namespace vielto::gap {
-
-enum class Variant { before, recalibrated, after, placebo };
-std::string text_of(Variant variant);
 
 struct PlannedRun {
   Variant variant = Variant::before;

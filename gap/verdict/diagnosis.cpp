@@ -61,20 +61,6 @@ std::vector<Index> rows_with_role(const TableModel& model, Role role) {
 
 }  // namespace
 
-std::string text_of(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::no_gap:
-      return "no_gap";
-    case Verdict::named:
-      return "named";
-    case Verdict::ambiguous:
-      return "ambiguous";
-    case Verdict::unknown:
-      return "unknown";
-  }
-  return "";
-}
-
 const ModelEvidence* Diagnosis::model(const std::string& name) const {
   for (const ModelEvidence& m : models)
     if (m.name() == name) return &m;
@@ -365,7 +351,7 @@ nlohmann::ordered_json shrink_json(const Shrink& s) {
   if (!s.placebo_name.empty()) j["placebo_effect"] = s.placebo_name;
   for (const SimulatedAgain& run : s.runs) {
     nlohmann::ordered_json row = {{"test", run.test}, {"observable", run.observable}};
-    for (const SimulatedAgain::Value& v : run.values) row[v.variant] = {{"value", v.value}, {"u", v.u}};
+    for (const SimulatedAgain::Value& v : run.values) row[text_of(v.variant)] = {{"value", v.value}, {"u", v.u}};
     j["runs"].push_back(std::move(row));
   }
   return j;

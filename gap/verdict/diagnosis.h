@@ -19,6 +19,8 @@
 #include <string>
 #include <vector>
 
+#include "gap/answer/variant.h"
+#include "gap/answer/verdict.h"
 #include "gap/verdict/evidence.h"
 #include "gap/verdict/isolability.h"
 #include "gap/verdict/regions.h"
@@ -28,20 +30,16 @@
 
 namespace vielto::gap {
 
-enum class Verdict { no_gap, named, ambiguous, unknown };
-std::string text_of(Verdict verdict);
-
 struct NamedStrength {
   std::string name, unit;
   Interval interval;
 };
 
-// What the runs of a proof say at one check row: variant ("before", "recalibrated", "after"), value, standard
-// uncertainty.
+// What the runs of a proof say at one check row: value and standard uncertainty of each variant but the placebo.
 struct SimulatedAgain {
   std::string test, observable;
   struct Value {
-    std::string variant;
+    Variant variant = Variant::before;
     double value = 0, u = 0;
   };
   std::vector<Value> values;

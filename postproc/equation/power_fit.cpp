@@ -91,13 +91,13 @@ void add_notes(PowerFit& fit) {
     fit.notes.push_back(fmt::format("condition number {:.3g} > {}: groups nearly move together, see the intervals",
                                     law.condition, kHighCondition));
   note_weak_contrast(fit);
-  if (law.interval_basis == "scatter" && law.chi2 > 0)
+  if (law.interval_basis == IntervalBasis::scatter && law.chi2 > 0)
     fit.notes.push_back(
         fmt::format("chi2 = {:.3g} for {} degrees of freedom (p = {:.2g}): the stated u are too small "
                     "or the equation does not hold; intervals are from the scatter",
                     law.chi2, law.degrees_of_freedom, law.chi2_exceedance));
   constexpr double kTooGood = 0.999;
-  if (law.chi2_exceedance > kTooGood && law.interval_basis == "u")
+  if (law.chi2_exceedance > kTooGood && law.interval_basis == IntervalBasis::u)
     fit.notes.push_back("chi2 is far below the degrees of freedom: the stated u are larger than the rows scatter");
   if (fit.equation.provisional) fit.notes.push_back("provisional: a material card is not calibrated yet");
 }

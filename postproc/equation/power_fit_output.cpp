@@ -16,6 +16,8 @@ namespace {
 
 using nlohmann::json;
 
+const char* basis_name(IntervalBasis basis) { return basis == IntervalBasis::u ? "u" : "scatter"; }
+
 const char* objective_name(Objective objective) {
   return objective == Objective::absolute ? "absolute" : objective == Objective::log ? "log" : "relative";
 }
@@ -181,7 +183,7 @@ json power_fit_json(const PowerFit& fit) {
       {"columns", law.columns},
       {"condition", law.condition},
       {"correlation", correlations},
-      {"intervals", {{"basis", law.interval_basis}, {"quantile", law.quantile}, {"standard_errors", errors}}},
+      {"intervals", {{"basis", basis_name(law.interval_basis)}, {"quantile", law.quantile}, {"standard_errors", errors}}},
       {"statistics", statistics},
       {"booklet",
        {{"max_relative_error", ThesisEquation::max_relative_error}, {"against_rows", errors_json(fit.booklet_errors)}}},
@@ -205,7 +207,7 @@ std::string power_fit_text(const PowerFit& fit) {
       fmt::format("{}\n{} rows, errors {}, weights {}, 95 % intervals from {}\n\n", equation_text(fit), law.rows,
                   objective_name(fit.request.objective),
                   weighted(fit) ? (fit.data.covariance_paths.empty() ? "u" : "u and covariance") : "equal",
-                  law.interval_basis == "u" ? "u" : "the scatter of the rows");
+                  law.interval_basis == IntervalBasis::u ? "u" : "the scatter of the rows");
   const auto line = [&](const Coefficient& c, const std::string& group) {
     const auto booklet = booklet_value(fit, c);
     text += fmt::format("{:<16}{:<20}", c.name, group);

@@ -360,7 +360,7 @@ void set_parameters(const Coordinates& at, const Solved& solved, PowerLawFit& fi
   fit.chi2 = solved.weighted ? solution.chi2 : 0;
   fit.chi2_exceedance = solved.weighted ? chi2_exceedance(solution.chi2, fit.degrees_of_freedom) : 1;
   const bool trust_u = solved.weighted && fit.chi2_exceedance >= kImprobable;
-  fit.interval_basis = trust_u ? "u" : "scatter";
+  fit.interval_basis = trust_u ? IntervalBasis::u : IntervalBasis::scatter;
   fit.quantile = trust_u ? kNormal975 : t975(fit.degrees_of_freedom);
   fit.parameters = at.fixed + at.to_parameters * solution.parameters;
   fit.covariance = at.to_parameters * solution.covariance * at.to_parameters.transpose();

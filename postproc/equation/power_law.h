@@ -78,12 +78,15 @@ class RelativeErrorSum {
   double rows_ = 0, mean_ = 0, mean_square_ = 0, maximum_ = 0;
 };
 
+// What the intervals rest on: the stated u, or how the rows scatter about the equation.
+enum class IntervalBasis { u, scatter };
+
 struct PowerLawFit {
   std::vector<std::string> names;  // "B0", then those of the problem
   Eigen::VectorXd parameters;      // ln B0 and the exponents; 0 where the exponent is an alias
   Eigen::MatrixXd covariance;      // of the parameters, on the basis of the intervals; 0 rows for fixed and aliases
   Eigen::VectorXd standard_error_from_u, standard_error_from_scatter;  // of the parameters on either basis
-  std::string interval_basis;                                          // "u" or "scatter"
+  IntervalBasis interval_basis = IntervalBasis::u;
   double quantile = 0;  // half width of a 95 % interval in standard errors
 
   std::vector<Coefficient> coefficients;  // those determined, fixed ones included

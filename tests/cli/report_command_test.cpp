@@ -259,6 +259,9 @@ TEST_F(Report, OfADiagnosisShowsVerdictMapAndBands) {
   EXPECT_EQ(report("bad"), 2);
   EXPECT_NE(err_.find("bad/diagnosis.json: is no diagnosis"), std::string::npos) << err_;
   EXPECT_EQ(count(err_, "\n"), 1u) << err_;
+  write("bad/diagnosis.json", R"({"verdict": "perhaps", "sentence": "", "probabilities": {}})");
+  EXPECT_EQ(report("bad"), 2);
+  EXPECT_NE(err_.find("bad/diagnosis.json: is no diagnosis (its verdict is 'perhaps')"), std::string::npos) << err_;
 }
 
 // Names from files are text wherever they stand: in the page, and in the data of its plots, which a script element

@@ -10,6 +10,7 @@
 
 namespace {
 
+using vielto::IntervalBasis;
 using vielto::Objective;
 using vielto::PowerLawFit;
 using vielto::PowerLawProblem;
@@ -152,7 +153,7 @@ TEST(PowerLaw, LogErrorsGiveTheStraightLineOfTheLogarithms) {
   const PowerLawFit fit = fit_power_law(problem);
   EXPECT_NEAR(value(fit, "B1"), 0.46, 1e-12);
   EXPECT_NEAR(std::log(value(fit, "B0")), 1.01, 1e-12);
-  EXPECT_EQ(fit.interval_basis, "scatter");
+  EXPECT_EQ(fit.interval_basis, IntervalBasis::scatter);
   const double error = std::sqrt(0.021 / 5);
   EXPECT_NEAR(fit.coefficients[1].standard_error, error, 1e-12);
   EXPECT_NEAR(fit.coefficients[1].high95, 0.46 + 4.3027 * error, 5e-5 * error);
@@ -175,7 +176,7 @@ TEST(PowerLaw, CorrelatedRowsOfAConstantHaveTheirGeneralisedMean) {
   const PowerLawFit fit = fit_power_law(problem);
   const double mean = 0.875 * 10 + 0.125 * 11;
   EXPECT_NEAR(value(fit, "B0"), mean, 1e-10);
-  EXPECT_EQ(fit.interval_basis, "u");
+  EXPECT_EQ(fit.interval_basis, IntervalBasis::u);
   EXPECT_NEAR(fit.standard_error_from_u[0], std::sqrt(3.75 / 4) / mean, 1e-10);  // of ln B0
   // chi2 = d^2 / (variance of the difference) = 1/(1 + 4 - 1)
   EXPECT_NEAR(fit.chi2, 0.25, 1e-10);
@@ -248,7 +249,7 @@ TEST(PowerLaw, LeaveOneOutAgreesWithFittingWithoutTheRow) {
 // Share of the trials in which the interval holds the true coefficient, expected 95 %. With 1000 trials the binomial
 // standard deviation is 0.69 %; 3.5 of those either way. With u the basis turns to the wider scatter in 5 % of the
 // trials, which adds at most half a per cent.
-void expect_coverage(const char* basis, bool correlated, bool with_u) {
+void expect_coverage(IntervalBasis basis, bool correlated, bool with_u) {
   constexpr int kTrials = 1000;
   const std::map<std::string, double> truth = {{"B0", kFactor}, {"B1", kFill}, {"B2", kCohesion}, {"B3", kFroude}};
   std::map<std::string, int> inside;
@@ -268,16 +269,16 @@ void expect_coverage(const char* basis, bool correlated, bool with_u) {
   for (const auto& [name, count] : inside) EXPECT_NEAR(count / double(kTrials), 0.95, 3.5 * 0.0069 + 0.003) << name;
 }
 
-TEST(PowerLawCoverage, IntervalsFromStatedUncertaintiesHoldTheTruth) { expect_coverage("u", false, true); }
-TEST(PowerLawCoverage, IntervalsFromACovarianceHoldTheTruth) { expect_coverage("u", true, true); }
-TEST(PowerLawCoverage, IntervalsFromTheScatterHoldTheTruth) { expect_coverage("scatter", false, false); }
+TEST(PowerLawCoverage, IntervalsFromStatedUncertaintiesHoldTheTruth) { expect_coverage(IntervalBasis::u, false, true); }
+TEST(PowerLawCoverage, IntervalsFromACovarianceHoldTheTruth) { expect_coverage(IntervalBasis::u, true, true); }
+TEST(PowerLawCoverage, IntervalsFromTheScatterHoldTheTruth) { expect_coverage(IntervalBasis::scatter, false, false); }
 
 // u stated three times too small: chi2 is nine times too large, the intervals must not follow u.
 TEST(PowerLaw, UncertaintiesThatTheScatterRefutesDoNotMakeTheIntervals) {
   PowerLawProblem problem = noisy(0.06, 7, false);
   problem.covariance /= 9;
   const PowerLawFit fit = fit_power_law(problem);
-  EXPECT_EQ(fit.interval_basis, "scatter");
+  EXPECT_EQ(fit.interval_basis, IntervalBasis::scatter);
   EXPECT_LT(fit.chi2_exceedance, 0.05);
   EXPECT_NEAR(fit.coefficients[1].standard_error / fit.standard_error_from_u[1],
               std::sqrt(fit.chi2 / fit.degrees_of_freedom), 1e-9);

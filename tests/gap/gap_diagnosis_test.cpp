@@ -322,7 +322,7 @@ TEST_F(GapDiagnosis, PointsSimulateWithoutTheEffectAndWithIt) {
 // What the runs of a proof said stands in the answer, row by row.
 TEST(GapShrink, TellsTheValuesOfItsRuns) {
   Shrink s;
-  s.runs = {{"t1", "power", {{"before", 3, 0.2}, {"after", 2, 0.1}}}};
+  s.runs = {{"t1", "power", {{Variant::before, 3, 0.2}, {Variant::after, 2, 0.1}}}};
   const nlohmann::ordered_json run = shrink_json(s)["runs"][0];
   EXPECT_EQ(run, (nlohmann::ordered_json{{"test", "t1"},
                                          {"observable", "power"},

@@ -29,21 +29,22 @@ std::vector<Effect> effects() { return read_effects(kGap + "effects", Settings::
 
 // Rules that hold for every file of the folder, whichever they are.
 TEST(GapEffects, EveryFileStatesASourceAndActsOnSomething) {
-  std::set<std::string> kinds;
+  std::set<EffectKind> kinds;
   for (const Effect& e : effects()) {
     kinds.insert(e.kind);
     EXPECT_GE(e.source.size(), 10u) << e.name;
     EXPECT_LE(e.prior_low, 0) << e.name;
     EXPECT_GE(e.prior_high, 0) << e.name;
     // a change of the rig has a simulation to be confirmed with, a measurement effect none
-    EXPECT_EQ(e.kind == "measurement", e.vars.empty()) << e.name;
+    EXPECT_EQ(e.kind == EffectKind::measurement, e.vars.empty()) << e.name;
     std::ifstream file(e.path);
     std::string first;
     std::getline(file, first);
     EXPECT_EQ(first.rfind("# ", 0), 0u) << e.name << " does not begin with what it is, for a reader";
   }
   // what the physics leaves out stands beside its rivals: geometry, measurement, numerics
-  EXPECT_EQ(kinds, (std::set<std::string>{"dem", "geometry", "measurement", "numerical"}));
+  EXPECT_EQ(kinds, (std::set<EffectKind>{EffectKind::dem, EffectKind::geometry, EffectKind::measurement,
+                                         EffectKind::numerical}));
 }
 
 // The numbers of a -var must be ones at both ends of the prior range, and no change at 0.

@@ -127,7 +127,7 @@ TEST(GapReference, ABenchRowOfBothStatesShowsTheChangeOfTheReading) {
   joint.shape_correlation = MatrixXd::Identity(2, 2);
   joint.family_members.resize(2, 0);
   EffectResponse effect;
-  effect.name = "size_spread", effect.kind = "dem", effect.high = 0.2;
+  effect.name = "size_spread", effect.kind = EffectKind::dem, effect.high = 0.2;
   effect.strengths = VectorXd::LinSpaced(2, 0, 0.2);
   effect.mean = MatrixXd::Zero(2, 2);
   effect.mean.col(1).setConstant(A);
