@@ -47,11 +47,7 @@ Observation row_of(const ImportOptions& o, const std::string& apparatus, const s
                    double u) {
   Observation row = o.row;
   row.apparatus = apparatus;
-  row.observable = observable;
-  row.value = value;
-  row.u = u;
-  row.unit = *observable_unit(apparatus, observable);
-  return row;
+  return with_value(row, observable, value, u);
 }
 
 struct SteadyTorque {

@@ -78,11 +78,8 @@ Observation row_of(const LoggerOptions& o, const char* observable, const LoggerM
   Observation row = o.row;
   const double watt = watts(o);
   row.apparatus = "mixer";
-  row.observable = observable;
-  row.unit = "W";
-  row.value = watt * m.mean.mean;
-  row.u = std::max(std::hypot(watt * m.mean.u, o.accuracy * row.value), 1e-9);
-  return row;
+  const double value = watt * m.mean.mean;
+  return with_value(row, observable, value, std::max(std::hypot(watt * m.mean.u, o.accuracy * value), 1e-9));
 }
 
 // A factor that the instrument is off by is the same in both rows; a later table needs to know, or the difference of

@@ -25,15 +25,10 @@ void import_surface(const SurfaceOptions& o) {
   std::vector<Observation> rows = o.earlier();
   const MeasuredSurface surface = read_surface(o.file, o.columns, o.drum_diameter / 2);
   std::size_t k = 0;
-  for (const SurfaceWindow& window : kSurfaceWindows) {
-    Observation row = o.row;
-    row.apparatus = "drum";
-    row.observable = window.observable;
-    row.value = surface.angles.*window.angle;
-    row.u = o.u[k++];
-    row.unit = *observable_unit(row.apparatus, row.observable);
-    rows.push_back(row);
-  }
+  Observation row = o.row;
+  row.apparatus = "drum";
+  for (const SurfaceWindow& window : kSurfaceWindows)
+    rows.push_back(with_value(row, window.observable, surface.angles.*window.angle, o.u[k++]));
   write_observations(o.out, rows);
   for (const SurfaceWindow& window : kSurfaceWindows)
     fmt::print("{}: {} {} = {:.4g} deg\n", o.out, o.row.test, window.observable, surface.angles.*window.angle);

@@ -183,9 +183,29 @@ std::optional<Role> role_of(std::string_view text) {
   return std::nullopt;
 }
 
+Observation TestLabel::row(const std::string& apparatus, const std::string& material,
+                           const std::string& its_wall) const {
+  Observation row;
+  row.test = test;
+  row.role = role;
+  row.apparatus = apparatus;
+  row.moisture = moisture;
+  row.wall = wall.empty() ? its_wall : wall;
+  row.material = material;
+  return row;
+}
+
 std::optional<std::string> observable_unit(const std::string& apparatus, const std::string& observable) {
   const NamedObservable* found = find_observable(apparatus, observable);
   return found ? std::optional(found->unit) : std::nullopt;
+}
+
+Observation with_value(Observation row, const std::string& observable, double value, double u) {
+  row.observable = observable;
+  row.unit = observable_unit(row.apparatus, observable).value();
+  row.value = value;
+  row.u = u;
+  return row;
 }
 
 std::vector<Observation> read_observations(const std::string& path) {

@@ -54,6 +54,9 @@ struct TestLabel {
   Role role = Role::fit;
   std::string wall;
   std::optional<double> moisture;  // 1, wet basis
+
+  // What rows of a run begin with; the wall is the run's own where the label states none.
+  Observation row(const std::string& apparatus, const std::string& material, const std::string& its_wall) const;
 };
 
 struct Covariance {
@@ -63,6 +66,9 @@ struct Covariance {
 
 // The unit of an observable on an apparatus; nothing if there is no such observable there.
 std::optional<std::string> observable_unit(const std::string& apparatus, const std::string& observable);
+
+// The row with an observable of its apparatus, in that one's unit.
+Observation with_value(Observation row, const std::string& observable, double value, double u);
 
 std::vector<Observation> read_observations(const std::string& path);
 

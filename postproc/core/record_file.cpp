@@ -38,6 +38,12 @@ double Keys::number(const std::string& key, double least, bool above) const {
   return *parsed;
 }
 
+void Keys::demand_schema(int schema) const {
+  if (integer("schema", 0) != schema)
+    throw BadInput(path_, line("schema"), fmt::format("the schema is not {}", schema),
+                   "write the record with this package's own version");
+}
+
 int Keys::integer(const std::string& key, int least) const {
   const double value = number(key, least);
   if (value != std::floor(value) || value > 1e9)

@@ -26,6 +26,8 @@ class Keys {
   int integer(const std::string& key, int least) const;
   std::vector<double> numbers(const std::string& key) const;  // with spaces between them
   int line(const std::string& key) const { return find(key).second; }
+  // Errors: BadInput for another one.
+  void demand_schema(int schema) const;
 
  private:
   const std::pair<std::string, int>& find(const std::string& key) const;

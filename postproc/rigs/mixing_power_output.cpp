@@ -7,6 +7,7 @@
 #include <functional>
 
 #include "core/csv.h"
+#include "rigs/run_result.h"
 
 namespace vielto {
 namespace {
@@ -21,14 +22,6 @@ Json or_null(const std::optional<MeanUncertainty>& m, double MeanUncertainty::*m
 }
 
 Json or_null(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
-
-std::string line(const std::string& name, double value, const std::string& u, const std::string& unit) {
-  return fmt::format("  {:<34}{:>12.5g}{:>12}  {}\n", name, value, u, unit);
-}
-
-std::string line(const std::string& name, const MeanUncertainty& m, const std::string& unit) {
-  return line(name, m.mean, fmt::format("{:.2g}", m.u), unit);
-}
 
 }  // namespace
 
@@ -108,57 +101,56 @@ Json power_json(const MixingPower& p) {
 std::string power_table(const MixingPower& p) {
   const TorqueRecordHeader& h = p.header;
   const RunQuality& q = p.quality;
-  std::string text;
-  for (const std::string& warning : q.warnings) text += fmt::format("WARNING: {}\n", warning);
-  text += fmt::format("{}, seed {}\n", h.what_ran(), h.seed);
-  text += fmt::format("steady turns {} to {}: {} of {} averaged, {} left out as start-up\n\n", p.turn_first + 1,
-                      p.turn_first + p.averaged.count, p.averaged.count, p.turns_total, p.averaged.first);
-  text += fmt::format("  {:<34}{:>12}{:>12}  {}\n", "whole drum", "value", "u (k=1)", "unit");
-  text += line("mean torque on the grains", p.torque, "N m");
+  ResultTable table(q.warnings, 34);
+  table.text(fmt::format("{}, seed {}", h.what_ran(), h.seed));
+  table.text(fmt::format("steady turns {} to {}: {} of {} averaged, {} left out as start-up", p.turn_first + 1,
+                         p.turn_first + p.averaged.count, p.averaged.count, p.turns_total, p.averaged.first));
+  table.heading("whole drum");
+  const auto line = [&](const std::string& name, const MeanUncertainty& m, const char* unit) {
+    table.line(name, m.mean, m.u, unit);
+  };
+  line("mean torque on the grains", p.torque, "N m");
   for (std::size_t i = 0; i < p.parts.size(); ++i)
-    text += line(fmt::format("  of the {}", p.part_names[i].name), p.parts[i], "N m");
+    line(fmt::format("  of the {}", p.part_names[i].name), p.parts[i], "N m");
   if (p.losses)
     for (std::size_t i = 0; i < kLosses.size(); ++i)
-      text += line(fmt::format("power lost, {}", kLosses[i]), (*p.losses)[i], "", "W");
-  text += line("torque ripple", p.curves.ripple, fmt::format("{:.2g}", p.curves.ripple_u), "1");
-  if (p.loaded) text += line("loaded power", *p.loaded, "W");
-  if (p.idle) text += line("idling power", *p.idle, "W");
-  text += line("mixing power", p.power, "W");
-  text += line("  95 % interval, half width", p.power.u95(), "", "W");
-  text += line("  common scale (bulk density)", 100 * kScaleUncertainty, "", "%");
+      table.line(fmt::format("power lost, {}", kLosses[i]), (*p.losses)[i], "W");
+  table.line("torque ripple", p.curves.ripple, p.curves.ripple_u, "1");
+  if (p.loaded) line("loaded power", *p.loaded, "W");
+  if (p.idle) line("idling power", *p.idle, "W");
+  line("mixing power", p.power, "W");
+  table.line("  95 % interval, half width", p.power.u95(), "W");
+  table.line("  common scale (bulk density)", 100 * kScaleUncertainty, "%");
   const auto number = [&](const char* name, const std::optional<double>& value) {
-    if (value) text += line(name, *value, "", "1");
+    if (value) table.line(name, *value, "1");
   };
   number("N_P  power number", p.n_p);
   number("N_PC cohesive power number", p.n_pc);
   number("N_C  cohesion number", p.n_c);
   number("Fr_M mixing Froude number", p.fr_m);
-  if (h.rig != "mixer" && h.power_lever) text += line("  with the lever stated", *h.power_lever, "", "m");
+  if (h.rig != "mixer" && h.power_lever) table.line("  with the lever stated", *h.power_lever, "m");
   if (p.thesis_power) {
-    text += line("published equation", *p.thesis_power, "", p.in_thesis_range ? "W" : "W, outside its range");
-    text += line("gap to it", 100 * *p.relative_gap, fmt::format("{:.2g}", 100 * p.power.u / *p.thesis_power), "%");
+    table.line("published equation", *p.thesis_power, p.in_thesis_range ? "W" : "W, outside its range");
+    table.line("gap to it", 100 * *p.relative_gap, 100 * p.power.u / *p.thesis_power, "%");
   }
-  text += fmt::format("\n  {:<34}{:>12}{:>12}\n", "quality", "value", "limit");
-  const auto quality = [&](const std::string& name, double value, const std::string& limit) {
-    text += fmt::format("  {:<34}{:>12.3g}{:>12}\n", name, value, limit);
-  };
-  quality("time step over t_c", q.dt_over_tc, fmt::format("{}", kMostDtOverTc));
-  quality("mean overlap, % of diameter", 100 * q.overlap_mean, fmt::format("{}", 100 * kMostOverlapMean));
-  quality("greatest overlap, % of diameter", 100 * q.overlap_max, fmt::format("{}", 100 * kMostOverlapMax));
-  quality("lost grains", q.lost_grains, "0");
-  quality("grain mass over target, %", 100 * (q.mass / q.mass_target - 1),
-          fmt::format("{}", 100 * kMostMassDifference));
-  quality("rows a turn", q.intervals_per_turn, "");
-  quality("effective samples", p.torque.effective_samples, "");
-  quality("drift, % a turn", 100 * p.averaged.slope, "");
+  table.limits_heading();
+  table.limit("time step over t_c", q.dt_over_tc, fmt::format("{}", kMostDtOverTc));
+  table.limit("mean overlap, % of diameter", 100 * q.overlap_mean, fmt::format("{}", 100 * kMostOverlapMean));
+  table.limit("greatest overlap, % of diameter", 100 * q.overlap_max, fmt::format("{}", 100 * kMostOverlapMax));
+  table.limit("lost grains", q.lost_grains, "0");
+  table.limit("grain mass over target, %", 100 * (q.mass / q.mass_target - 1),
+              fmt::format("{}", 100 * kMostMassDifference));
+  table.limit("rows a turn", q.intervals_per_turn, "");
+  table.limit("effective samples", p.torque.effective_samples, "");
+  table.limit("drift, % a turn", 100 * p.averaged.slope, "");
   if (q.torque_balance)
-    quality("torque balance, % of rotor", 100 * q.torque_balance_relative,
-            fmt::format("{:.2g}",
-                        300 * q.torque_balance->u / std::fabs(q.torque_balance->mean / q.torque_balance_relative)));
+    table.limit("torque balance, % of rotor", 100 * q.torque_balance_relative,
+                fmt::format("{:.2g}",
+                            300 * q.torque_balance->u / std::fabs(q.torque_balance->mean / q.torque_balance_relative)));
   if (q.energy_gap)
-    quality("energy left over, % of work", 100 * *q.energy_gap, fmt::format("{}", 100 * kMostEnergyGap));
-  for (const std::string& note : q.notes) text += fmt::format("note: {}\n", note);
-  return text;
+    table.limit("energy left over, % of work", 100 * *q.energy_gap, fmt::format("{}", 100 * kMostEnergyGap));
+  for (const std::string& note : q.notes) table.text("note: " + note);
+  return table.written();
 }
 
 std::string phase_csv(const MixingPower& p) {
@@ -192,22 +184,12 @@ std::string default_test_name(const MixingPower& p) {
 }
 
 std::vector<Observation> power_observations(const MixingPower& p, const TestLabel& label) {
+  Observation row = label.row(p.header.rig, p.header.material, "");
+  row.speed = p.header.speed;
+  row.fill = p.header.fill;
   std::vector<Observation> rows;
   const auto add = [&](const std::string& observable, double value, double u) {
-    Observation row;
-    row.test = label.test;
-    row.role = label.role;
-    row.apparatus = p.header.rig;
-    row.observable = observable;
-    row.value = value;
-    row.u = u;
-    row.unit = *observable_unit(p.header.rig, observable);
-    row.speed = p.header.speed;
-    row.fill = p.header.fill;
-    row.moisture = label.moisture;
-    row.wall = label.wall;
-    row.material = p.header.material;
-    rows.push_back(row);
+    rows.push_back(with_value(row, observable, value, u));
   };
   if (p.loaded && p.idle) {
     add("power_loaded", p.loaded->mean, p.loaded->u);

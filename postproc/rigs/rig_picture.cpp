@@ -287,6 +287,11 @@ bool draw_look(const std::string& run, const TurningRotor* rotor, const std::opt
 
 }  // namespace
 
+void add_grains(const std::string& run, PostResult& result) {
+  result.pictures.push_back({"grains.png", [run](const std::string& path) { draw_rig(run, nullptr, path); }});
+  result.film = [run](const std::string& path) { draw_film(run, nullptr, path); };
+}
+
 bool has_dump(const std::string& run) { return last_dump(fs::path(run) / "vtk", ".vtk").has_value(); }
 
 bool draw_rig(const std::string& run, const TurningRotor* rotor, const std::string& path) {

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "rigs/post.h"
+
 namespace vielto {
 
 // How far a rotor has turned since its start, from the step of a dump, and what
@@ -30,6 +32,9 @@ bool draw_rig(const std::string& run, const TurningRotor* rotor, const std::stri
 // to be played over and over. Errors: as above, and BadInput for fewer than two
 // dumps; without ffmpeg need_film_program() says so before.
 void draw_film(const std::string& run, const TurningRotor* rotor, const std::string& path);
+
+// Gives a result the picture and the film of its run's grains, of a rig without a rotor.
+void add_grains(const std::string& run, PostResult& result);
 
 // Whether RUN holds a dump of grains.
 bool has_dump(const std::string& run);

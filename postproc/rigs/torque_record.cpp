@@ -10,6 +10,7 @@
 #include "core/bad_input.h"
 #include "core/mixing_numbers.h"
 #include "core/record_file.h"
+#include "rigs/run_result.h"
 
 namespace vielto {
 namespace {
@@ -62,9 +63,7 @@ void parse_machine(const std::string& path, const Keys& keys, TorqueRecordHeader
 }
 
 TorqueRecordHeader parse_header(const std::string& path, const Keys& keys) {
-  if (keys.integer("schema", 0) != 1)
-    throw BadInput(path, keys.line("schema"), "the schema is not 1",
-                   "write the record with this package's own version");
+  keys.demand_schema(1);
   TorqueRecordHeader h;
   h.rig = keys.has("rig") ? keys.text("rig") : h.rig;
   h.speed = keys.number("speed", 0, true);
@@ -241,7 +240,7 @@ void check_paddles(const TorqueRecord& record) {
 }  // namespace
 
 std::string TorqueRecordHeader::what_ran() const {
-  std::string text = material + (provisional ? " (provisional)" : "") + (material.empty() ? "" : ", ");
+  std::string text = material_text(material, provisional) + (material.empty() ? "" : ", ");
   text += fill ? fmt::format("fill {:.4g}", *fill) : fmt::format("{:.4g} kg", mass);
   text += fmt::format(", {} 1/s", speed);
   if (rig == "mixer") text += slice == 0 ? ", whole drum" : fmt::format(", slice of {} of {} paddles", slice, paddles);

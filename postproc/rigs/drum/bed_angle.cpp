@@ -23,23 +23,14 @@ struct Look {
 Look read_look(const std::string& path) {
   RecordFile file(path, "a run folder or its bed_1.csv");
   const Keys& keys = file.keys();
-  if (keys.integer("schema", 0) != 1)
-    throw BadInput(path, keys.line("schema"), "the schema is not 1",
-                   "write the record with this package's own version");
   Look look;
   BedHeader& h = look.header;
+  read_run_header(keys, h);
   h.speed = keys.number("speed", 0, true);
   h.fill = keys.number("fill", 0, true);
   h.tilt = keys.number("tilt", 0);
   h.drum_diameter = keys.number("drum_diameter", 0, true);
   h.drum_length = keys.number("drum_length", 0, true);
-  h.grain_diameter = keys.number("grain_diameter", 0, true);
-  h.youngs_modulus = keys.number("youngs_modulus", 0, true);
-  h.dt_over_tc = keys.number("dt_over_tc", 0);
-  h.seed = keys.text("seed");
-  h.material = keys.text("material");
-  h.wall = keys.text("wall");
-  h.provisional = keys.integer("provisional", 0) != 0;
   look.frames = keys.integer("frames", 1);
   look.turn = keys.number("turn", 0);
   look.grains = read_grains(file, path);

@@ -22,18 +22,16 @@
 
 #include "rigs/drum/bed_shape.h"
 #include "rigs/drum/free_surface.h"
+#include "rigs/run_result.h"
 
 namespace vielto {
 
 constexpr double kEndDiameters = 1.5;
 constexpr int kBlocks = 6;
 
-struct BedHeader {
-  double speed = 0, fill = 0, tilt = 0;                           // 1/s, 1, deg
-  double drum_diameter = 0, drum_length = 0, grain_diameter = 0;  // m
-  double youngs_modulus = 0, dt_over_tc = 0;                      // Pa, 1
-  std::string seed, material, wall;
-  bool provisional = false;
+struct BedHeader : RunHeader {
+  double speed = 0, fill = 0, tilt = 0;       // 1/s, 1, deg
+  double drum_diameter = 0, drum_length = 0;  // m
 };
 
 struct BedLook {

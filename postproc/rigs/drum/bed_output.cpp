@@ -5,8 +5,6 @@
 
 #include <algorithm>
 
-#include "core/quality_limits.h"
-
 namespace vielto {
 namespace {
 
@@ -17,13 +15,8 @@ constexpr double kLeastU = 1e-6;
 
 nlohmann::ordered_json bed_json(const BedAngle& bed) {
   const BedHeader& h = bed.header;
-  nlohmann::ordered_json json = {
-      {"schema", 1},
-      {"rig", "drum"},
-      {"material", h.material},
-      {"provisional", h.provisional},
-      {"wall", h.wall},
-      {"seed", h.seed},
+  nlohmann::ordered_json json = head_of_result("drum", h);
+  json.update({
       {"speed_1_s", h.speed},
       {"fill", h.fill},
       {"tilt_deg", h.tilt},
@@ -36,7 +29,7 @@ nlohmann::ordered_json bed_json(const BedAngle& bed) {
       {"angle_u_deg", bed.angle.u},
       {"looks", bed.looks.size()},
       {"dt_over_tc", h.dt_over_tc},
-  };
+  });
   if (!bed.surface) return json;
   for (const SurfaceWindow& window : kSurfaceWindows) {
     json[fmt::format("{}_deg", window.observable)] = bed.surface->angles.*window.angle;
@@ -49,27 +42,24 @@ nlohmann::ordered_json bed_json(const BedAngle& bed) {
 
 std::string bed_table(const BedAngle& bed) {
   const BedHeader& h = bed.header;
-  std::string text = fmt::format("{}{} in a drum of {}, {} grains of {} mm, fill {}, {} 1/s, tilt {} deg, seed {}\n\n",
-                                 h.material, h.provisional ? " (provisional)" : "", h.wall, bed.grains,
-                                 1e3 * h.grain_diameter, h.fill, h.speed, h.tilt, h.seed);
-  text += fmt::format("  {:<44}{:>12}{:>12}  {}\n", "bed", "value", "u (k=1)", "unit");
-  text += fmt::format("  {:<44}{:>12.5g}{:>12.2g}  deg\n", "dynamic angle of the free surface", bed.angle.value,
-                      bed.angle.u);
+  ResultTable table;
+  table.text(fmt::format("{} in a drum of {}, {} grains of {} mm, fill {}, {} 1/s, tilt {} deg, seed {}",
+                         material_text(h.material, h.provisional), h.wall, bed.grains, 1e3 * h.grain_diameter, h.fill,
+                         h.speed, h.tilt, h.seed));
+  table.heading("bed");
+  table.line("dynamic angle of the free surface", bed.angle.value, bed.angle.u, "deg");
   for (const BedLook& look : bed.looks)
-    text += fmt::format("  {:<44}{:>12.5g}{:>12.2g}  deg\n", fmt::format("  after {:.3f} turns", look.turn),
-                        look.angle.value, look.angle.u);
+    table.line(fmt::format("  after {:.3f} turns", look.turn), look.angle.value, look.angle.u, "deg");
   if (bed.surface) {
     for (const SurfaceWindow& window : kSurfaceWindows)
-      text += fmt::format("  {:<44}{:>12.5g}{:>12.2g}  deg\n",
-                          fmt::format("{}, {} < x/R < {}", window.observable, window.from, window.to),
-                          bed.surface->angles.*window.angle, bed.surface->u.*window.angle);
-    text += fmt::format("  {:<44}{:>12.5g}{:>12.2g}  1\n", "bed over the drum's section", bed.surface->area.value,
-                        bed.surface->area.u);
+      table.line(fmt::format("{}, {} < x/R < {}", window.observable, window.from, window.to),
+                 bed.surface->angles.*window.angle, bed.surface->u.*window.angle, "deg");
+    table.line("bed over the drum's section", bed.surface->area.value, bed.surface->area.u, "1");
   } else {
-    text += fmt::format("  no slopes of the surface: {}\n", bed.no_surface);
+    table.text("  no slopes of the surface: " + bed.no_surface);
   }
-  text += fmt::format("  {:<44}{:>12.5g}{:>12}  1, limit {}\n", "time step over t_c", h.dt_over_tc, "", kMostDtOverTc);
-  return text;
+  table.time_step(h);
+  return table.written();
 }
 
 std::string bed_looks_csv(const BedAngle& bed) {
@@ -87,28 +77,15 @@ std::string bed_surface_csv(const BedSurface& surface) {
 
 std::vector<Observation> bed_observations(const BedAngle& bed, const TestLabel& label) {
   const BedHeader& h = bed.header;
-  Observation row;
-  row.test = label.test;
-  row.role = label.role;
-  row.apparatus = "drum";
-  row.observable = "angle";
-  row.value = bed.angle.value;
-  row.u = std::max(bed.angle.u, kLeastU);
-  row.unit = *observable_unit("drum", "angle");
+  Observation row = label.row("drum", h.material, h.wall);
   row.speed = h.speed;
   row.fill = h.fill;
   row.tilt = h.tilt;
-  row.moisture = label.moisture;
-  row.wall = label.wall.empty() ? h.wall : label.wall;
-  row.material = h.material;
-  std::vector<Observation> rows = {row};
+  std::vector<Observation> rows = {with_value(row, "angle", bed.angle.value, std::max(bed.angle.u, kLeastU))};
   if (!bed.surface) return rows;
-  for (const SurfaceWindow& window : kSurfaceWindows) {
-    row.observable = window.observable;
-    row.value = bed.surface->angles.*window.angle;
-    row.u = std::max(bed.surface->u.*window.angle, kLeastU);
-    rows.push_back(row);
-  }
+  for (const SurfaceWindow& window : kSurfaceWindows)
+    rows.push_back(with_value(row, window.observable, bed.surface->angles.*window.angle,
+                              std::max(bed.surface->u.*window.angle, kLeastU)));
   return rows;
 }
 

@@ -19,9 +19,8 @@ PostResult post_drum(const PostInput& input) {
   result.numbers = bed_json(bed);
   result.files = {{"looks.csv", bed_looks_csv(bed)}};
   if (bed.surface) result.files.push_back({"surface.csv", bed_surface_csv(*bed.surface)});
-  result.pictures = {{"bed.png", [bed](const std::string& path) { draw_bed(bed, path); }},
-                     {"grains.png", [run = input.run()](const std::string& path) { draw_rig(run, nullptr, path); }}};
-  result.film = [run = input.run()](const std::string& path) { draw_film(run, nullptr, path); };
+  result.pictures = {{"bed.png", [bed](const std::string& path) { draw_bed(bed, path); }}};
+  add_grains(input.run(), result);
   return result;
 }
 

@@ -8,20 +8,16 @@
 #include <vector>
 
 #include "rigs/grain.h"
+#include "rigs/run_result.h"
 
 namespace vielto {
 
-struct HeapHeader {
+struct HeapHeader : RunHeader {
   double lift_speed = 0;         // m/s
-  double grain_diameter = 0;     // m
   double cylinder_diameter = 0;  // m
-  double youngs_modulus = 0;     // Pa
-  double dt_over_tc = 0;         // 1
   double rest_time = 0;          // s, after the start of lifting, when the heap was found at rest
   std::string base;              // plain or rough
-  std::string seed, material, wall;
-  bool provisional = false;
-  int spheres_per_grain = 1;  // of a clump; its spheres are rows of their own
+  int spheres_per_grain = 1;     // of a clump; its spheres are rows of their own
 };
 
 struct Heap {

@@ -5,8 +5,6 @@
 
 #include <algorithm>
 
-#include "core/quality_limits.h"
-
 namespace vielto {
 namespace {
 
@@ -21,14 +19,9 @@ std::size_t grain_count(const Heap& heap) {
 
 nlohmann::ordered_json repose_json(const Heap& heap, const ConeFit& f) {
   const HeapHeader& h = heap.header;
-  return {
-      {"schema", 1},
-      {"rig", "repose"},
-      {"material", h.material},
-      {"provisional", h.provisional},
-      {"wall", h.wall},
+  nlohmann::ordered_json json = head_of_result("repose", h);
+  json.update({
       {"base", h.base},
-      {"seed", h.seed},
       {"lift_speed_m_s", h.lift_speed},
       {"grain_diameter_m", h.grain_diameter},
       {"youngs_modulus_Pa", h.youngs_modulus},
@@ -48,31 +41,31 @@ nlohmann::ordered_json repose_json(const Heap& heap, const ConeFit& f) {
       {"about_summit", f.about_summit},
       {"dt_over_tc", h.dt_over_tc},
       {"strip_angles_deg", f.strip_angles},
-  };
+  });
+  return json;
 }
 
 std::string repose_table(const Heap& heap, const ConeFit& f) {
   const HeapHeader& h = heap.header;
-  std::string text = fmt::format("{}{} on {} ({} base), {} {} of {} mm, lifted at {} mm/s, seed {}\n\n", h.material,
-                                 h.provisional ? " (provisional)" : "", h.wall, h.base, grain_count(heap),
-                                 h.spheres_per_grain > 1
-                                     ? fmt::format("clumps of {} spheres, as large as spheres", h.spheres_per_grain)
-                                     : "grains",
-                                 1e3 * h.grain_diameter, 1e3 * h.lift_speed, h.seed);
-  text += fmt::format("  {:<44}{:>12}{:>12}  {}\n", "heap", "value", "u (k=1)", "unit");
-  const auto line = [&](const std::string& name, double value, const std::string& u, const std::string& unit) {
-    text += fmt::format("  {:<44}{:>12.5g}{:>12}  {}\n", name, value, u, unit);
-  };
-  line("static angle of repose", f.angle, fmt::format("{:.2g}", f.u), "deg");
-  line(fmt::format("  standard deviation over {} azimuths", f.strip_angles.size()), f.spread, "", "deg");
-  line("  upper half of the flank less lower half", f.curvature, "", "deg");
-  line("height of the mean profile", 1e3 * f.height, "", "mm");
-  line("flank from radius", 1e3 * f.flank_from, "", "mm");
-  line("flank to radius", 1e3 * f.flank_to, "", "mm");
-  line(f.about_summit ? "summit off the axis (measured about it)" : "summit off the axis", 1e3 * f.off_axis, "", "mm");
-  line("at rest after", h.rest_time, "", "s");
-  line("time step over t_c", h.dt_over_tc, "", fmt::format("1, limit {}", kMostDtOverTc));
-  return text;
+  ResultTable table;
+  table.text(fmt::format("{} on {} ({} base), {} {} of {} mm, lifted at {} mm/s, seed {}",
+                         material_text(h.material, h.provisional), h.wall, h.base, grain_count(heap),
+                         h.spheres_per_grain > 1
+                             ? fmt::format("clumps of {} spheres, as large as spheres", h.spheres_per_grain)
+                             : "grains",
+                         1e3 * h.grain_diameter, 1e3 * h.lift_speed, h.seed));
+  table.heading("heap");
+  table.line("static angle of repose", f.angle, f.u, "deg");
+  table.line(fmt::format("  standard deviation over {} azimuths", f.strip_angles.size()), f.spread, "deg");
+  table.line("  upper half of the flank less lower half", f.curvature, "deg");
+  table.line("height of the mean profile", 1e3 * f.height, "mm");
+  table.line("flank from radius", 1e3 * f.flank_from, "mm");
+  table.line("flank to radius", 1e3 * f.flank_to, "mm");
+  table.line(f.about_summit ? "summit off the axis (measured about it)" : "summit off the axis", 1e3 * f.off_axis,
+             "mm");
+  table.line("at rest after", h.rest_time, "s");
+  table.time_step(h);
+  return table.written();
 }
 
 std::string repose_profile_csv(const ConeFit& f) {
@@ -82,18 +75,8 @@ std::string repose_profile_csv(const ConeFit& f) {
 }
 
 std::vector<Observation> repose_observations(const Heap& heap, const ConeFit& f, const TestLabel& label) {
-  Observation row;
-  row.test = label.test;
-  row.role = label.role;
-  row.apparatus = "repose";
-  row.observable = "angle";
-  row.value = f.angle;
-  row.u = std::max(f.u, kLeastU);
-  row.unit = *observable_unit("repose", "angle");
-  row.moisture = label.moisture;
-  row.wall = label.wall.empty() ? heap.header.wall : label.wall;
-  row.material = heap.header.material;
-  return {row};
+  const Observation row = label.row("repose", heap.header.material, heap.header.wall);
+  return {with_value(row, "angle", f.angle, std::max(f.u, kLeastU))};
 }
 
 }  // namespace vielto

@@ -19,9 +19,8 @@ PostResult post_repose(const PostInput& input) {
   result.table = repose_table(heap, fit);
   result.numbers = repose_json(heap, fit);
   result.files = {{"profile.csv", repose_profile_csv(fit)}};
-  result.pictures = {{"heap.png", [heap, fit](const std::string& path) { draw_heap(heap, fit, path); }},
-                     {"grains.png", [run = input.run()](const std::string& path) { draw_rig(run, nullptr, path); }}};
-  result.film = [run = input.run()](const std::string& path) { draw_film(run, nullptr, path); };
+  result.pictures = {{"heap.png", [heap, fit](const std::string& path) { draw_heap(heap, fit, path); }}};
+  add_grains(input.run(), result);
   return result;
 }
 

@@ -9,26 +9,17 @@
 namespace vielto {
 namespace {
 
-ShearRecordHeader parse_header(const std::string& path, const Keys& keys) {
-  if (keys.integer("schema", 0) != 1)
-    throw BadInput(path, keys.line("schema"), "the schema is not 1",
-                   "write the record with this package's own version");
+ShearRecordHeader parse_header(const Keys& keys) {
   ShearRecordHeader h;
+  read_run_header(keys, h);
   h.normal_stress = keys.number("normal_stress", 0, true);
   h.shear_velocity = keys.number("shear_velocity", 0, true);
   h.plate_mass = keys.number("plate_mass", 0, true);
   h.gravity = keys.number("gravity", 0, true);
   h.area = keys.number("area", 0, true);
   h.density = keys.number("density", 0, true);
-  h.grain_diameter = keys.number("grain_diameter", 0, true);
-  h.youngs_modulus = keys.number("youngs_modulus", 0, true);
   h.dt = keys.number("dt", 0, true);
-  h.dt_over_tc = keys.number("dt_over_tc", 0);
   h.interval_steps = keys.integer("interval_steps", 1);
-  h.seed = keys.text("seed");
-  h.material = keys.text("material");
-  h.wall = keys.text("wall");
-  h.provisional = keys.integer("provisional", 0) != 0;
   return h;
 }
 
@@ -39,7 +30,7 @@ ShearRecord read_shear_record(const std::string& path) {
   const Columns& c = file.columns();
   ShearRecord r;
   r.path = path;
-  r.header = parse_header(path, file.keys());
+  r.header = parse_header(file.keys());
 
   const std::size_t step = c.at("step"), grains = c.at("grains");
   const std::size_t lower_z = c.at("lower_Fz_N"), upper_z = c.at("upper_Fz_N"), plate_z = c.at("plate_Fz_N");

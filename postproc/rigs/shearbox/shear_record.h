@@ -9,22 +9,19 @@
 #include <string>
 #include <vector>
 
+#include "rigs/run_result.h"
+
 namespace vielto {
 
-struct ShearRecordHeader {
+struct ShearRecordHeader : RunHeader {
   double normal_stress = 0;   // Pa, weight of the load plate over the area
   double shear_velocity = 0;  // m/s
   double plate_mass = 0;      // kg
   double gravity = 0;         // m/s2
   double area = 0;            // m2
   double density = 0;         // kg/m3, of a grain
-  double grain_diameter = 0;  // m
-  double youngs_modulus = 0;  // Pa
   double dt = 0;              // s
-  double dt_over_tc = 0;      // 1
   double interval_steps = 0;
-  std::string seed, material, wall;
-  bool provisional = false;
 
   double plate_weight() const { return plate_mass * gravity; }  // N
 };

@@ -17,9 +17,8 @@ PostResult post_shear(const PostInput& input) {
   result.table = shear_table(shear);
   result.numbers = shear_json(shear);
   result.files = {{"curve.csv", shear_curve_csv(shear)}};
-  result.pictures = {{"shear.png", [record, shear](const std::string& path) { draw_shear(record, shear, path); }},
-                     {"grains.png", [run = input.run()](const std::string& path) { draw_rig(run, nullptr, path); }}};
-  result.film = [run = input.run()](const std::string& path) { draw_film(run, nullptr, path); };
+  result.pictures = {{"shear.png", [record, shear](const std::string& path) { draw_shear(record, shear, path); }}};
+  add_grains(input.run(), result);
   result.warnings = shear.warnings;
   return result;
 }

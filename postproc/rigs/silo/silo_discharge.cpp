@@ -14,23 +14,14 @@
 namespace vielto {
 namespace {
 
-SiloHeader read_header(const std::string& path, const Keys& keys) {
-  if (keys.integer("schema", 0) != 1)
-    throw BadInput(path, keys.line("schema"), "the schema is not 1",
-                   "write the record with this package's own version");
+SiloHeader read_header(const Keys& keys) {
   SiloHeader h;
+  read_run_header(keys, h);
   h.silo_diameter = keys.number("silo_diameter", 0, true);
   h.orifice_diameter = keys.number("orifice_diameter", 0, true);
-  h.grain_diameter = keys.number("grain_diameter", 0, true);
-  h.youngs_modulus = keys.number("youngs_modulus", 0, true);
-  h.dt_over_tc = keys.number("dt_over_tc", 0);
   h.bulk_density = keys.number("bulk_density", 0, true);
   h.mass_filled = keys.number("mass_filled", 0, true);
   h.gravity = keys.number("gravity", 0, true);
-  h.seed = keys.text("seed");
-  h.material = keys.text("material");
-  h.wall = keys.text("wall");
-  h.provisional = keys.integer("provisional", 0) != 0;
   return h;
 }
 
@@ -111,7 +102,7 @@ double beverloo_rate(double bulk_density, double gravity, double orifice, double
 SiloDischarge read_silo_discharge(const std::string& path) {
   RecordFile file(path, "a run folder or its silo.csv");
   SiloDischarge d;
-  d.header = read_header(path, file.keys());
+  d.header = read_header(file.keys());
   const std::vector<Grain> grains = read_grains(file, path);
   d.grains = grains.size();
   d.flow = read_flow((std::filesystem::path(path).parent_path() / "flow.csv").string());

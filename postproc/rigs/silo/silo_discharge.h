@@ -22,6 +22,7 @@
 
 #include "core/mean_uncertainty.h"
 #include "rigs/round_surface.h"
+#include "rigs/run_result.h"
 
 namespace vielto {
 
@@ -33,15 +34,11 @@ constexpr double kLeastCraterHeight =
     3;                               // grain diameters: grains of a lower crater rest on the bottom, not on each other
 constexpr double kLeastOrifice = 5;  // grain diameters: narrower ones arch
 
-struct SiloHeader {
-  double silo_diameter = 0, orifice_diameter = 0, grain_diameter = 0;  // m
-  double youngs_modulus = 0;                                           // Pa
-  double dt_over_tc = 0;                                               // 1
-  double bulk_density = 0;                                             // kg/m3, before the outflow
-  double mass_filled = 0;                                              // kg
-  double gravity = 0;                                                  // m/s2
-  std::string seed, material, wall;
-  bool provisional = false;
+struct SiloHeader : RunHeader {
+  double silo_diameter = 0, orifice_diameter = 0;  // m
+  double bulk_density = 0;                         // kg/m3, before the outflow
+  double mass_filled = 0;                          // kg
+  double gravity = 0;                              // m/s2
 };
 
 struct SiloFlow {

@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/quality_limits.h"
 #include "picture/chart.h"
 #include "rigs/rig_code.h"
 #include "rigs/rig_picture.h"
@@ -49,71 +48,52 @@ RigGeometry silo_geometry(GeometryInput& input) {
 
 nlohmann::ordered_json silo_json(const SiloDischarge& d) {
   const SiloHeader& h = d.header;
-  return {{"schema", 1},
-          {"rig", "silo"},
-          {"material", h.material},
-          {"provisional", h.provisional},
-          {"wall", h.wall},
-          {"seed", h.seed},
-          {"silo_diameter_m", h.silo_diameter},
-          {"orifice_diameter_m", h.orifice_diameter},
-          {"grain_diameter_m", h.grain_diameter},
-          {"youngs_modulus_Pa", h.youngs_modulus},
-          {"mass_filled_kg", h.mass_filled},
-          {"mass_left_kg", d.flow.mass.back()},
-          {"bulk_density_kg_m3", h.bulk_density},
-          {"discharge_rate_kg_s", d.rate.mean},
-          {"discharge_rate_u_kg_s", d.rate.u},
-          {"rate_from_s", d.rate_from},
-          {"rate_to_s", d.rate_to},
-          {"drift", d.drift},
-          {"beverloo_kg_s", d.beverloo},
-          {"over_beverloo", d.rate.mean / d.beverloo},
-          {"angle_deg", d.angle.mean},
-          {"angle_u_deg", d.angle.u},
-          {"angle_spread_deg", d.angle.spread},
-          {"grains_left", d.grains},
-          {"quality", {{"ok", d.warnings.empty()}, {"dt_over_tc", h.dt_over_tc}, {"warnings", d.warnings}}}};
+  nlohmann::ordered_json json = head_of_result("silo", h);
+  json.update({{"silo_diameter_m", h.silo_diameter},
+               {"orifice_diameter_m", h.orifice_diameter},
+               {"grain_diameter_m", h.grain_diameter},
+               {"youngs_modulus_Pa", h.youngs_modulus},
+               {"mass_filled_kg", h.mass_filled},
+               {"mass_left_kg", d.flow.mass.back()},
+               {"bulk_density_kg_m3", h.bulk_density},
+               {"discharge_rate_kg_s", d.rate.mean},
+               {"discharge_rate_u_kg_s", d.rate.u},
+               {"rate_from_s", d.rate_from},
+               {"rate_to_s", d.rate_to},
+               {"drift", d.drift},
+               {"beverloo_kg_s", d.beverloo},
+               {"over_beverloo", d.rate.mean / d.beverloo},
+               {"angle_deg", d.angle.mean},
+               {"angle_u_deg", d.angle.u},
+               {"angle_spread_deg", d.angle.spread},
+               {"grains_left", d.grains},
+               {"quality", {{"ok", d.warnings.empty()}, {"dt_over_tc", h.dt_over_tc}, {"warnings", d.warnings}}}});
+  return json;
 }
 
 std::string silo_table(const SiloDischarge& d) {
   const SiloHeader& h = d.header;
-  std::string text = fmt::format("{}{} out of a silo of {}, orifice of {} mm, grains of {} mm, seed {}\n\n", h.material,
-                                 h.provisional ? " (provisional)" : "", h.wall, 1e3 * h.orifice_diameter,
-                                 1e3 * h.grain_diameter, h.seed);
-  text += fmt::format("  {:<44}{:>12}{:>12}  {}\n", "silo", "value", "u (k=1)", "unit");
-  const auto line = [&](const std::string& name, double value, const std::string& u, const std::string& unit) {
-    text += fmt::format("  {:<44}{:>12.5g}{:>12}  {}\n", name, value, u, unit);
-  };
-  line("discharge rate", d.rate.mean, fmt::format("{:.2g}", d.rate.u), "kg/s");
-  line("  second half over first, less 1", 100 * d.drift, "", "%");
-  line("  Beverloo, C = 0.58, k = 1.4", d.beverloo, "", "kg/s");
-  line("drained angle", d.angle.mean, fmt::format("{:.2g}", d.angle.u), "deg");
-  line(fmt::format("  standard deviation over {} azimuths", kSiloStrips), d.angle.spread, "", "deg");
-  line("mass filled", h.mass_filled, "", "kg");
-  line("mass that stays", d.flow.mass.back(), "", "kg");
-  line("bulk density before", h.bulk_density, "", "kg/m3");
-  line("time step over t_c", h.dt_over_tc, "", fmt::format("1, limit {}", kMostDtOverTc));
-  return text;
+  ResultTable table;
+  table.text(fmt::format("{} out of a silo of {}, orifice of {} mm, grains of {} mm, seed {}",
+                         material_text(h.material, h.provisional), h.wall, 1e3 * h.orifice_diameter,
+                         1e3 * h.grain_diameter, h.seed));
+  table.heading("silo");
+  table.line("discharge rate", d.rate.mean, d.rate.u, "kg/s");
+  table.line("  second half over first, less 1", 100 * d.drift, "%");
+  table.line("  Beverloo, C = 0.58, k = 1.4", d.beverloo, "kg/s");
+  table.line("drained angle", d.angle.mean, d.angle.u, "deg");
+  table.line(fmt::format("  standard deviation over {} azimuths", kSiloStrips), d.angle.spread, "deg");
+  table.line("mass filled", h.mass_filled, "kg");
+  table.line("mass that stays", d.flow.mass.back(), "kg");
+  table.line("bulk density before", h.bulk_density, "kg/m3");
+  table.time_step(h);
+  return table.written();
 }
 
 std::vector<Observation> silo_observations(const SiloDischarge& d, const TestLabel& label) {
-  Observation row;
-  row.test = label.test;
-  row.role = label.role;
-  row.apparatus = "silo";
-  row.moisture = label.moisture;
-  row.wall = label.wall.empty() ? d.header.wall : label.wall;
-  row.material = d.header.material;
-  const auto with = [&](const char* observable, double value, double u) {
-    row.observable = observable;
-    row.unit = *observable_unit("silo", observable);
-    row.value = value;
-    row.u = u;
-    return row;
-  };
-  return {with("discharge_rate", d.rate.mean, d.rate.u),
-          with("angle", d.angle.mean, std::max(d.angle.u, kLeastAngleU))};
+  const Observation row = label.row("silo", d.header.material, d.header.wall);
+  return {with_value(row, "discharge_rate", d.rate.mean, d.rate.u),
+          with_value(row, "angle", d.angle.mean, std::max(d.angle.u, kLeastAngleU))};
 }
 
 void draw_flow(const SiloDischarge& d, const std::string& path) {
@@ -137,9 +117,8 @@ PostResult post_silo(const PostInput& input) {
   std::string profile = "radius_m,height_m\n";
   for (const SurfacePoint& p : d.profile) profile += fmt::format("{:.9g},{:.9g}\n", p.r, p.z);
   result.files = {{"profile.csv", profile}};
-  result.pictures = {{"flow.png", [d](const std::string& path) { draw_flow(d, path); }},
-                     {"grains.png", [run = input.run()](const std::string& path) { draw_rig(run, nullptr, path); }}};
-  result.film = [run = input.run()](const std::string& path) { draw_film(run, nullptr, path); };
+  result.pictures = {{"flow.png", [d](const std::string& path) { draw_flow(d, path); }}};
+  add_grains(input.run(), result);
   result.warnings = d.warnings;
   return result;
 }
