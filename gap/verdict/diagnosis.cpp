@@ -59,6 +59,67 @@ std::vector<Index> rows_with_role(const TableModel& model, Role role) {
   return keep;
 }
 
+// What would be said with other assumptions; the threshold stays.
+std::vector<Sensitivity> sensitivity_of(const TableModel& fit, const Threshold& threshold, const Settings& settings) {
+  std::vector<Sensitivity> sensitivity;
+  const auto vary = [&](const std::string& change, const TableModel& changed, const Settings& other) {
+    std::vector<ModelEvidence> models = all_evidence(changed, other, 5);
+    const double log_odds = largest_log_odds(changed, other, changed.observed)[0];
+    const Judgement verdict = judged(changed, models, is_gap(changed, log_odds, threshold, other), other);
+    double rivals = 0;
+    const ModelEvidence* top = nullptr;
+    for (const ModelEvidence& m : models) {
+      if (m.effects.empty() && !m.unknown) continue;
+      rivals += m.probability;
+      if (!top) top = &m;
+    }
+    sensitivity.push_back({change, verdict.verdict, top->name(), top->probability / rivals});
+  };
+  Settings other = settings;
+  other.prior_unknown = settings.prior_unknown * 3;
+  other.prior_no_gap = std::max(0.05, 1 - other.prior_unknown - other.prior_single - other.prior_pair);
+  vary("unknown three times as probable", fit, other);
+  other = settings;
+  other.prior_pair = settings.prior_pair * 3;
+  other.prior_no_gap = std::max(0.05, 1 - other.prior_unknown - other.prior_single - other.prior_pair);
+  vary("pairs three times as probable", fit, other);
+  TableModel changed = fit;
+  for (EffectResponse& e : changed.effects) {
+    e.low /= 2;
+    e.high /= 2;
+  }
+  vary("half the prior range of every strength", changed, settings);
+  changed = fit;
+  for (EffectResponse& e : changed.effects) e.shape_error *= 0.8;
+  vary("shape error 0.8 times", changed, settings);
+  changed = fit;
+  for (EffectResponse& e : changed.effects) e.shape_error *= 1.2;
+  vary("shape error 1.2 times", changed, settings);
+  if (!fit.discrepancy.isZero(0)) {
+    changed = fit;
+    changed.discrepancy *= 2.25;
+    vary("law discrepancy 1.5 times", changed, settings);
+    changed.discrepancy /= 2.25 * 2.25;
+    vary("law discrepancy divided by 1.5", changed, settings);
+  }
+  return sensitivity;
+}
+
+// Of the named effects, together if they are two, or of each of a group by itself.
+std::vector<NamedStrength> strengths_of(const Diagnosis& d, const TableModel& fit) {
+  std::vector<NamedStrength> strengths;
+  const auto add = [&](const ModelEvidence& m, std::size_t e) {
+    strengths.push_back({m.effects[e], fit.effect(m.effects[e])->unit, m.strength(e)});
+  };
+  if (d.named.size() == 2) {
+    const ModelEvidence* pair = d.model(d.named[0] + "+" + d.named[1]);
+    add(*pair, 0);
+    add(*pair, 1);
+  }
+  for (const std::string& name : d.named.size() == 1 ? d.named : d.group) add(*d.model(name), 0);
+  return strengths;
+}
+
 }  // namespace
 
 const ModelEvidence* Diagnosis::model(const std::string& name) const {
@@ -273,15 +334,7 @@ Diagnosis diagnose(const TableModel& model, const Threshold& threshold, const Se
   d.named = v.named;
   d.group = v.group;
   d.fit_probability = v.fit_probability;
-  const auto add_strength = [&](const ModelEvidence& m, std::size_t e) {
-    d.strengths.push_back({m.effects[e], fit.effect(m.effects[e])->unit, m.strength(e)});
-  };
-  if (d.named.size() == 2) {
-    const ModelEvidence* pair = d.model(d.named[0] + "+" + d.named[1]);
-    add_strength(*pair, 0);
-    add_strength(*pair, 1);
-  }
-  for (const std::string& name : d.named.size() == 1 ? d.named : d.group) add_strength(*d.model(name), 0);
+  d.strengths = strengths_of(d, fit);
 
   VectorXd gap = fit.gap();
   const auto applied = d.applied();
@@ -294,47 +347,7 @@ Diagnosis diagnose(const TableModel& model, const Threshold& threshold, const Se
   d.where = locate(fit);
   d.trends = trends_of(fit);
 
-  // What would be said with other assumptions; the threshold stays.
-  const auto vary = [&](const std::string& change, const TableModel& changed, const Settings& other) {
-    std::vector<ModelEvidence> models = all_evidence(changed, other, 5);
-    const double log_odds = largest_log_odds(changed, other, changed.observed)[0];
-    const Judgement verdict = judged(changed, models, is_gap(changed, log_odds, threshold, other), other);
-    double rivals = 0;
-    const ModelEvidence* top = nullptr;
-    for (const ModelEvidence& m : models) {
-      if (m.effects.empty() && !m.unknown) continue;
-      rivals += m.probability;
-      if (!top) top = &m;
-    }
-    d.sensitivity.push_back({change, verdict.verdict, top->name(), top->probability / rivals});
-  };
-  Settings other = settings;
-  other.prior_unknown = settings.prior_unknown * 3;
-  other.prior_no_gap = std::max(0.05, 1 - other.prior_unknown - other.prior_single - other.prior_pair);
-  vary("unknown three times as probable", fit, other);
-  other = settings;
-  other.prior_pair = settings.prior_pair * 3;
-  other.prior_no_gap = std::max(0.05, 1 - other.prior_unknown - other.prior_single - other.prior_pair);
-  vary("pairs three times as probable", fit, other);
-  TableModel changed = fit;
-  for (EffectResponse& e : changed.effects) {
-    e.low /= 2;
-    e.high /= 2;
-  }
-  vary("half the prior range of every strength", changed, settings);
-  changed = fit;
-  for (EffectResponse& e : changed.effects) e.shape_error *= 0.8;
-  vary("shape error 0.8 times", changed, settings);
-  changed = fit;
-  for (EffectResponse& e : changed.effects) e.shape_error *= 1.2;
-  vary("shape error 1.2 times", changed, settings);
-  if (!fit.discrepancy.isZero(0)) {
-    changed = fit;
-    changed.discrepancy *= 2.25;
-    vary("law discrepancy 1.5 times", changed, settings);
-    changed.discrepancy /= 2.25 * 2.25;
-    vary("law discrepancy divided by 1.5", changed, settings);
-  }
+  d.sensitivity = sensitivity_of(fit, threshold, settings);
   return d;
 }
 

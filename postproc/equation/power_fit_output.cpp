@@ -104,23 +104,19 @@ std::string errors_text(const char* name, const RelativeErrors& e) {
                      100 * e.maximum);
 }
 
-}  // namespace
+const char* weights_name(const PowerFit& fit) {
+  return !weighted(fit) ? "equal" : fit.data.covariance_paths.empty() ? "u" : "u and covariance";
+}
 
-json power_fit_json(const PowerFit& fit) {
-  const PowerLawFit& law = fit.law;
-  json coefficients = json::object(), combinations = json::object(), correlations = json::object(),
-       residuals = json::array(), by_group = json::object(), fixed = json::object(), merged = json::object(),
-       groups = json::array();
-  for (const Coefficient& c : law.coefficients) {
-    coefficients[c.name] = coefficient_json(fit, c);
-    if (c.fixed) fixed[c.name] = c.value;
-  }
-  for (const Coefficient& c : law.combinations) combinations[c.name] = coefficient_json(fit, c);
+json correlations_json(const PowerLawFit& law) {
+  json correlations = json::object();
   for (const Eigen::Index i : estimated(law))
     for (const Eigen::Index j : estimated(law)) correlations[label(law, i)][label(law, j)] = correlation(law, i, j);
-  for (std::size_t j = 1; j < law.names.size(); ++j) groups.push_back(kGroupNames[group_of_coefficient(law.names[j])]);
-  for (const int g : fit.merged)
-    merged[fmt::format("B{}", g + 1)] = {{"group", kGroupNames[g]}, {"value", fit.equation.group_range[g]->low}};
+  return correlations;
+}
+
+json residuals_json(const PowerFit& fit) {
+  json residuals = json::array();
   for (Eigen::Index i = 0; i < fit.number.size(); ++i) {
     const PowerRow& row = fit.data.fit[static_cast<std::size_t>(i)];
     json r = {{"test", row.observation.test},
@@ -129,13 +125,18 @@ json power_fit_json(const PowerFit& fit) {
               {"power", row.observation.value},
               {"observed", fit.number[i]},
               {"u", fit.number_u[i]},
-              {"fitted", law.fitted[i]},
-              {"leave_one_out", law.leave_one_out[i]},
-              {"relative_deviation", law.fitted[i] / fit.number[i] - 1}};
+              {"fitted", fit.law.fitted[i]},
+              {"leave_one_out", fit.law.leave_one_out[i]},
+              {"relative_deviation", fit.law.fitted[i] / fit.number[i] - 1}};
     for (int g = 0; g < kGroupCount; ++g)
       if (row.groups[g]) r["groups"][kGroupNames[g]] = *row.groups[g];
     residuals.push_back(r);
   }
+  return residuals;
+}
+
+json residuals_by_group_json(const PowerFit& fit) {
+  json by_group = json::object();
   for (const auto& [name, levels] : residuals_by_group(fit))
     for (const Level& level : levels)
       by_group[name].push_back({{"low", level.low},
@@ -143,7 +144,11 @@ json power_fit_json(const PowerFit& fit) {
                                 {"rows", level.rows},
                                 {"mean_relative_deviation", level.mean},
                                 {"max_relative_deviation", level.maximum}});
+  return by_group;
+}
 
+json statistics_json(const PowerFit& fit) {
+  const PowerLawFit& law = fit.law;
   json statistics = {{"rows", law.rows},
                      {"degrees_of_freedom", law.degrees_of_freedom},
                      {"r2", law.r2},
@@ -160,18 +165,49 @@ json power_fit_json(const PowerFit& fit) {
     statistics["chi2_per_degree_of_freedom"] = law.chi2 / law.degrees_of_freedom;
     statistics["chi2_exceedance"] = law.chi2_exceedance;
   }
+  return statistics;
+}
+
+json intervals_json(const PowerFit& fit) {
+  const PowerLawFit& law = fit.law;
   json errors = json::object();
   for (const Eigen::Index i : estimated(law)) {
     const std::string name = i == 0 ? "ln " + label(law, i) : label(law, i);
     errors[name]["from_scatter"] = law.standard_error_from_scatter[i];
     if (weighted(fit)) errors[name]["from_u"] = law.standard_error_from_u[i];
   }
+  return {{"basis", basis_name(law.interval_basis)}, {"quantile", law.quantile}, {"standard_errors", errors}};
+}
+
+void add_check(const PowerFit& fit, json& result) {
+  if (!fit.data.check.empty()) result["check"] = errors_json(fit.check_errors);
+  for (Eigen::Index i = 0; i < fit.check_power.size(); ++i) {
+    const Observation& o = fit.data.check[static_cast<std::size_t>(i)].observation;
+    result["check_rows"].push_back(
+        {{"test", o.test}, {"power", o.value}, {"u", o.u}, {"predicted_power", fit.check_power[i]}});
+  }
+}
+
+}  // namespace
+
+json power_fit_json(const PowerFit& fit) {
+  const PowerLawFit& law = fit.law;
+  json coefficients = json::object(), combinations = json::object(), fixed = json::object(), merged = json::object(),
+       groups = json::array();
+  for (const Coefficient& c : law.coefficients) {
+    coefficients[c.name] = coefficient_json(fit, c);
+    if (c.fixed) fixed[c.name] = c.value;
+  }
+  for (const Coefficient& c : law.combinations) combinations[c.name] = coefficient_json(fit, c);
+  for (std::size_t j = 1; j < law.names.size(); ++j) groups.push_back(kGroupNames[group_of_coefficient(law.names[j])]);
+  for (const int g : fit.merged)
+    merged[fmt::format("B{}", g + 1)] = {{"group", kGroupNames[g]}, {"value", fit.equation.group_range[g]->low}};
   json result = {
       {"schema", 1},
       {"equation", equation_text(fit)},
       {"number", number_name(fit.request.number)},
       {"objective", objective_name(fit.request.objective)},
-      {"weights", weighted(fit) ? (fit.data.covariance_paths.empty() ? "u" : "u and covariance") : "equal"},
+      {"weights", weights_name(fit)},
       {"groups", groups},
       {"coefficients", coefficients},
       {"identifiable", law.identifiable()},
@@ -182,32 +218,25 @@ json power_fit_json(const PowerFit& fit) {
       {"rank", law.rank},
       {"columns", law.columns},
       {"condition", law.condition},
-      {"correlation", correlations},
-      {"intervals", {{"basis", basis_name(law.interval_basis)}, {"quantile", law.quantile}, {"standard_errors", errors}}},
-      {"statistics", statistics},
+      {"correlation", correlations_json(law)},
+      {"intervals", intervals_json(fit)},
+      {"statistics", statistics_json(fit)},
       {"booklet",
        {{"max_relative_error", ThesisEquation::max_relative_error}, {"against_rows", errors_json(fit.booklet_errors)}}},
-      {"residuals", residuals},
-      {"residuals_by_group", by_group},
+      {"residuals", residuals_json(fit)},
+      {"residuals_by_group", residuals_by_group_json(fit)},
       {"provisional", fit.equation.provisional},
       {"notes", fit.notes},
       {"prediction", to_json(fit.equation)}};
-  if (!fit.data.check.empty()) result["check"] = errors_json(fit.check_errors);
-  for (Eigen::Index i = 0; i < fit.check_power.size(); ++i) {
-    const Observation& o = fit.data.check[static_cast<std::size_t>(i)].observation;
-    result["check_rows"].push_back(
-        {{"test", o.test}, {"power", o.value}, {"u", o.u}, {"predicted_power", fit.check_power[i]}});
-  }
+  add_check(fit, result);
   return result;
 }
 
 std::string power_fit_text(const PowerFit& fit) {
   const PowerLawFit& law = fit.law;
-  std::string text =
-      fmt::format("{}\n{} rows, errors {}, weights {}, 95 % intervals from {}\n\n", equation_text(fit), law.rows,
-                  objective_name(fit.request.objective),
-                  weighted(fit) ? (fit.data.covariance_paths.empty() ? "u" : "u and covariance") : "equal",
-                  law.interval_basis == IntervalBasis::u ? "u" : "the scatter of the rows");
+  std::string text = fmt::format("{}\n{} rows, errors {}, weights {}, 95 % intervals from {}\n\n", equation_text(fit),
+                                 law.rows, objective_name(fit.request.objective), weights_name(fit),
+                                 law.interval_basis == IntervalBasis::u ? "u" : "the scatter of the rows");
   const auto line = [&](const Coefficient& c, const std::string& group) {
     const auto booklet = booklet_value(fit, c);
     text += fmt::format("{:<16}{:<20}", c.name, group);
