@@ -237,6 +237,113 @@ void check_paddles(const TorqueRecord& record) {
                    "record every paddle of the slice once");
 }
 
+// Rows -> the record, phase by phase.
+class Reader {
+ public:
+  Reader(const std::string& path, RecordFile& file, TorqueRecord& record)
+      : file_(file),
+        record_(record),
+        progress_(path, record.header, file.columns()),
+        kept_(kept_columns()),
+        bins_(kept_.size()),
+        values_(kept_.size()),
+        step_(file.columns().at("step")),
+        grains_(file.columns().at("grains")),
+        overlap_max_(file.columns().at("overlap_max")),
+        energy_(file.columns()) {
+    // Not used here, but part of the format.
+    for (const RecordedPart& part : record.parts)
+      for (const char* axis : {"x", "y", "z"}) file.columns().at(fmt::format("{}_F{}_N", part.name, axis));
+    file.columns().at("contacts");
+  }
+
+  void read() {
+    for (std::vector<double> row; file_.next_row(row);) add(row);
+    if (progress_.rows() == 0) throw BadInput(record_.path, 0, "holds no row", "run the case again");
+    take_signals();
+  }
+
+ private:
+  // The signals kept by phase, in the order of take_signals().
+  std::vector<std::size_t> kept_columns() const {
+    const Columns& columns = file_.columns();
+    std::vector<std::size_t> kept;
+    for (const RecordedPart& part : record_.parts) kept.push_back(columns.at(part.name + "_Nm"));
+    kept.push_back(columns.at("idle_Nm"));
+    kept.push_back(columns.at("overlap_mean"));
+    if (columns.has("gravity_Nm")) kept.push_back(columns.at("gravity_Nm"));
+    for (int k = 1; k <= record_.header.slice; ++k) kept.push_back(columns.at(fmt::format("paddle{}_Nm", k)));
+    return kept;
+  }
+
+  bool reaches(double end, long phase) const {
+    return end >= record_.first_turn + static_cast<double>(phase) / kPhases - kSliver;
+  }
+
+  void add(const std::vector<double>& row) {
+    const double end = progress_.end(row, file_.line());
+    const double begin = end - progress_.length();
+    if (progress_.rows() == 1) {
+      record_.first_turn = std::max(0, static_cast<int>(std::ceil(begin - kSliver)));
+      record_.first_grains = row[grains_];
+      record_.start_step = row[step_] - end * record_.header.steps_per_turn;
+    }
+    record_.last_grains = row[grains_];
+    if (energy_.recorded() && record_.energy.empty() && reaches(end, 0)) record_.energy.push_back(energy_.at(row));
+    if (end <= record_.first_turn + kSliver) return;
+
+    for (std::size_t s = 0; s < kept_.size(); ++s) values_[s] = row[kept_[s]];
+    block_overlap_max_ = std::max(block_overlap_max_, row[overlap_max_]);
+    for (double from = std::max(begin, static_cast<double>(record_.first_turn));;) {
+      const double edge = record_.first_turn + static_cast<double>(bins_.count() + 1) / kPhases;
+      if (from < std::min(end, edge)) bins_.add(values_, std::min(end, edge) - from);
+      if (!reaches(end, bins_.count() + 1)) break;
+      bins_.next();
+      from = edge;
+      if (bins_.ends_block()) end_block(row, end > edge + kSliver);
+    }
+  }
+
+  // `row` ends the block; it goes on into the next one, or not.
+  void end_block(const std::vector<double>& row, bool goes_on) {
+    record_.overlap_max.push_back(block_overlap_max_);
+    block_overlap_max_ = goes_on ? row[overlap_max_] : 0;
+    if (energy_.recorded()) record_.energy.push_back(energy_.at(row));
+    if (!bins_.full()) return;
+    bins_.halve_blocks();
+    std::vector<double>& most = record_.overlap_max;
+    for (std::size_t b = 0; b < most.size() / 2; ++b) most[b] = std::max(most[2 * b], most[2 * b + 1]);
+    most.resize(most.size() / 2);
+    for (std::size_t b = 0; 2 * b < record_.energy.size(); ++b) record_.energy[b] = record_.energy[2 * b];
+    record_.energy.resize((record_.energy.size() + 1) / 2);
+  }
+
+  void take_signals() {
+    record_.turns = bins_.blocks();
+    record_.turns_per_block = bins_.turns_per_block();
+    record_.intervals_per_turn = 1 / progress_.length();
+    std::size_t s = 0;
+    const auto take = [&](std::vector<double>& signal) { signal = std::move(bins_.curve(s++)); };
+    record_.part.resize(record_.parts.size());
+    for (auto& part : record_.part) take(part);
+    take(record_.idle);
+    take(record_.overlap_mean);
+    if (file_.columns().has("gravity_Nm")) take(record_.gravity);
+    record_.paddle.resize(static_cast<std::size_t>(record_.header.slice));
+    for (auto& paddle : record_.paddle) take(paddle);
+  }
+
+  RecordFile& file_;
+  TorqueRecord& record_;
+  Progress progress_;
+  std::vector<std::size_t> kept_;
+  PhaseBins bins_;
+  std::vector<double> values_;
+  std::size_t step_, grains_, overlap_max_;
+  EnergyColumns energy_;
+  double block_overlap_max_ = 0;
+};
+
 }  // namespace
 
 std::string TorqueRecordHeader::what_ran() const {
@@ -257,83 +364,11 @@ std::vector<double> TorqueRecord::sum_of(bool turning) const {
 
 TorqueRecord read_torque_record(const std::string& path) {
   RecordFile file(path, "a run folder or its torque.csv");
-  const Columns& columns = file.columns();
-
   TorqueRecord record;
   record.path = path;
   record.header = parse_header(path, file.keys());
-  const TorqueRecordHeader& h = record.header;
-  if (h.rig != "mixer") record.parts = stated_parts(path, file.keys());
-  Progress progress(path, h, columns);
-
-  // The signals kept by phase, in this order.
-  std::vector<std::size_t> kept;
-  for (const RecordedPart& part : record.parts) kept.push_back(columns.at(part.name + "_Nm"));
-  kept.push_back(columns.at("idle_Nm"));
-  kept.push_back(columns.at("overlap_mean"));
-  const bool has_gravity = columns.has("gravity_Nm");
-  if (has_gravity) kept.push_back(columns.at("gravity_Nm"));
-  for (int k = 1; k <= h.slice; ++k) kept.push_back(columns.at(fmt::format("paddle{}_Nm", k)));
-  // Not used here, but part of the format.
-  for (const RecordedPart& part : record.parts)
-    for (const char* axis : {"x", "y", "z"}) columns.at(fmt::format("{}_F{}_N", part.name, axis));
-  columns.at("contacts");
-  const std::size_t overlap_max = columns.at("overlap_max"), grains = columns.at("grains");
-  const EnergyColumns energy(columns);
-
-  PhaseBins bins(kept.size());
-  std::vector<double> row, values(kept.size());
-  double block_overlap_max = 0;
-  while (file.next_row(row)) {
-    const double end = progress.end(row, file.line());
-    const double begin = end - progress.length();
-    if (progress.rows() == 1) {
-      record.first_turn = std::max(0, static_cast<int>(std::ceil(begin - kSliver)));
-      record.first_grains = row[grains];
-      record.start_step = row[columns.at("step")] - end * h.steps_per_turn;
-    }
-    record.last_grains = row[grains];
-    const auto reaches = [&](long phase) {
-      return end >= record.first_turn + static_cast<double>(phase) / kPhases - kSliver;
-    };
-    if (energy.recorded() && record.energy.empty() && reaches(0)) record.energy.push_back(energy.at(row));
-    if (end <= record.first_turn + kSliver) continue;
-
-    for (std::size_t s = 0; s < kept.size(); ++s) values[s] = row[kept[s]];
-    block_overlap_max = std::max(block_overlap_max, row[overlap_max]);
-    for (double from = std::max(begin, static_cast<double>(record.first_turn));;) {
-      const double edge = record.first_turn + static_cast<double>(bins.count() + 1) / kPhases;
-      if (from < std::min(end, edge)) bins.add(values, std::min(end, edge) - from);
-      if (!reaches(bins.count() + 1)) break;
-      bins.next();
-      from = edge;
-      if (!bins.ends_block()) continue;
-      record.overlap_max.push_back(block_overlap_max);
-      block_overlap_max = end > edge + kSliver ? row[overlap_max] : 0;
-      if (energy.recorded()) record.energy.push_back(energy.at(row));
-      if (!bins.full()) continue;
-      bins.halve_blocks();
-      for (std::size_t b = 0; b < record.overlap_max.size() / 2; ++b)
-        record.overlap_max[b] = std::max(record.overlap_max[2 * b], record.overlap_max[2 * b + 1]);
-      record.overlap_max.resize(record.overlap_max.size() / 2);
-      for (std::size_t b = 0; 2 * b < record.energy.size(); ++b) record.energy[b] = record.energy[2 * b];
-      record.energy.resize((record.energy.size() + 1) / 2);
-    }
-  }
-  if (progress.rows() == 0) throw BadInput(path, 0, "holds no row", "run the case again");
-
-  record.turns = bins.blocks();
-  record.turns_per_block = bins.turns_per_block();
-  record.intervals_per_turn = 1 / progress.length();
-  std::size_t s = 0;
-  const auto take = [&](std::vector<double>& signal) { signal = std::move(bins.curve(s++)); };
-  record.part.resize(record.parts.size());
-  for (auto& part : record.part) take(part);
-  take(record.idle);
-  take(record.overlap_mean);
-  if (has_gravity) take(record.gravity);
-  record.paddle.resize(static_cast<std::size_t>(h.slice));
-  for (auto& paddle : record.paddle) take(paddle);
+  if (record.header.rig != "mixer") record.parts = stated_parts(path, file.keys());
+  Reader(path, file, record).read();
   check_paddles(record);
   return record;
 }
