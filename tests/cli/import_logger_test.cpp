@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // `vielto import logger` through its command line: one signal of known mean as loggers write it, bad input.
 #include <gtest/gtest.h>
-#include <stdlib.h>
-#include <sys/wait.h>
 
 #include <algorithm>
 #include <cmath>
@@ -15,16 +13,12 @@
 #include <vector>
 
 #include "core/observation_table.h"
+#include "tests/cli/command_test.h"
 
 namespace {
 
 namespace fs = std::filesystem;
 const double pi = std::acos(-1.0);
-
-struct Outcome {
-  int status;
-  std::string text;
-};
 
 // 10 Hz for two minutes: a start-up of 3 s, then 1200 W with a ripple and noise. Written with two decimals.
 double start_up(int i) { return 800 * std::exp(-0.1 * i / 3); }
@@ -49,39 +43,21 @@ std::string text_of(double value, char point, int digits = 2) {
 
 std::string two(int n) { return (n < 10 ? "0" : "") + std::to_string(n); }
 
-class ImportLogger : public testing::Test {
+class ImportLogger : public vielto_test::CommandTest {
  protected:
-  void SetUp() override {
-    std::string name = (fs::temp_directory_path() / "vielto-test-XXXXXX").string();
-    folder_ = mkdtemp(name.data());
-    values_ = signal(1200, 1);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
-  void write(const std::string& name, const std::string& text) const {
-    std::ofstream(folder_ / name, std::ios::binary) << text;
-  }
-  Outcome run(const std::string& options) const {
-    const std::string command = "cd " + folder_.string() + " && " VIELTO_BIN_DIR "/vielto import logger " + options +
-                                " --test t --out o.csv > out.txt 2>&1";
-    const int status = std::system(command.c_str());
-    std::ostringstream text;
-    text << std::ifstream(folder_ / "out.txt").rdbuf();
-    return {WEXITSTATUS(status), text.str()};
-  }
-  std::vector<vielto::Observation> rows(const std::string& options) const {
-    const Outcome outcome = run(options);
-    EXPECT_EQ(outcome.status, 0) << outcome.text;
-    return outcome.status == 0 ? vielto::read_observations((folder_ / "o.csv").string())
-                               : std::vector<vielto::Observation>(1);
+  int import(const std::string& options) { return vielto("import logger " + options + " --test t --out o.csv"); }
+  std::vector<vielto::Observation> rows(const std::string& options) {
+    const int status = import(options);
+    EXPECT_EQ(status, 0) << err_;
+    return status == 0 ? vielto::read_observations((folder_ / "o.csv").string()) : std::vector<vielto::Observation>(1);
   }
   // One line, exit status 2, no table and no part of one.
-  std::string refusal(const std::string& options) const {
-    const Outcome outcome = run(options);
-    EXPECT_EQ(outcome.status, 2) << outcome.text;
-    EXPECT_EQ(std::count(outcome.text.begin(), outcome.text.end(), '\n'), 1) << outcome.text;
+  std::string refusal(const std::string& options) {
+    EXPECT_EQ(import(options), 2) << err_;
+    EXPECT_EQ(std::count(err_.begin(), err_.end(), '\n'), 1) << err_;
+    EXPECT_EQ(out_, "");
     EXPECT_FALSE(fs::exists(folder_ / "o.csv"));
-    return outcome.text;
+    return err_;
   }
   // Rows of the record, each from its number and value.
   std::string lines(const std::function<std::string(int, double)>& row) const {
@@ -94,8 +70,7 @@ class ImportLogger : public testing::Test {
            lines([mark](int i, double v) { return text_of(0.1 * i, '.') + mark + text_of(v, '.'); });
   }
 
-  fs::path folder_;
-  std::vector<double> values_;
+  std::vector<double> values_ = signal(1200, 1);
 };
 
 // The mean within four of its own standard uncertainties; the start-up, 800 W at first, would move the whole mean
@@ -195,25 +170,22 @@ TEST_F(ImportLogger, AveragesThePartAskedFor) {
 TEST_F(ImportLogger, ASampleThatAloneMovesTheMeanIsNamed) {
   values_[800] = 10000;
   write("a.txt", plain());
-  EXPECT_EQ(run("a.txt --value-column P --time-column t").text.find("alone moves"), std::string::npos);
+  EXPECT_EQ(import("a.txt --value-column P --time-column t"), 0) << err_;
+  EXPECT_EQ(out_.find("alone moves"), std::string::npos);
   values_[800] = 1e6;
   write("a.txt", plain());
   for (const char* part : {"", " --from 20 --to 119"}) {
-    const Outcome outcome = run("a.txt --value-column P --time-column t" + std::string(part));
-    EXPECT_EQ(outcome.status, 0) << outcome.text;
-    EXPECT_NE(outcome.text.find("note: line 802, 1e+06, alone moves the mean from 12"), std::string::npos)
-        << outcome.text;
+    EXPECT_EQ(import("a.txt --value-column P --time-column t" + std::string(part)), 0) << err_;
+    EXPECT_NE(out_.find("note: line 802, 1e+06, alone moves the mean from 12"), std::string::npos) << out_;
   }
 }
 
 // VTK ends the program where no X server answers.
 TEST_F(ImportLogger, WithoutADisplayTheTableIsWritten) {
   write("a.txt", plain());
-  const std::string options = " --test t --out o.csv a.txt --value-column P --time-column t > out.txt 2>&1";
+  const std::string options = " --test t --out o.csv a.txt --value-column P --time-column t";
   for (const std::string display : {"env -u DISPLAY ", "DISPLAY=:98765 "}) {
-    const std::string command =
-        "cd " + folder_.string() + " && " + display + VIELTO_BIN_DIR "/vielto import logger" + options;
-    EXPECT_EQ(std::system(command.c_str()), 0);
+    EXPECT_EQ(run(display + VIELTO_BIN_DIR "/vielto import logger" + options), 0) << err_;
     EXPECT_EQ(vielto::read_observations((folder_ / "o.csv").string()).size(), 1u);
     EXPECT_FALSE(fs::exists(folder_ / "o.a.png"));
     fs::remove(folder_ / "o.csv");

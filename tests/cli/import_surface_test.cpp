@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // `vielto import surface` through its command line: surfaces of known slope, a published one, bad input.
 #include <gtest/gtest.h>
-#include <stdlib.h>
-#include <sys/wait.h>
 
 #include <cmath>
 #include <filesystem>
@@ -12,39 +10,20 @@
 #include <vector>
 
 #include "core/observation_table.h"
+#include "tests/cli/command_test.h"
 
 namespace {
 
 namespace fs = std::filesystem;
 const double pi = std::acos(-1.0);
 
-struct Outcome {
-  int status;
-  std::string text;
-};
-
-class ImportSurface : public testing::Test {
+class ImportSurface : public vielto_test::CommandTest {
  protected:
-  void SetUp() override {
-    std::string name = (fs::temp_directory_path() / "vielto-test-XXXXXX").string();
-    folder_ = mkdtemp(name.data());
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
-  void write(const std::string& text) { std::ofstream(folder_ / "surface.csv") << text; }
-  Outcome run(const std::string& options) const {
-    const std::string command =
-        "cd " + folder_.string() + " && " VIELTO_BIN_DIR "/vielto import surface " + options + " > out.txt 2>&1";
-    const int status = std::system(command.c_str());
-    std::ostringstream text;
-    text << std::ifstream(folder_ / "out.txt").rdbuf();
-    return {WEXITSTATUS(status), text.str()};
-  }
+  void write_surface(const std::string& text) { write("surface.csv", text); }
+  int import(const std::string& options) { return vielto("import surface " + options); }
   std::vector<vielto::Observation> rows() const {
     return vielto::read_observations((folder_ / "observations.csv").string());
   }
-
-  fs::path folder_;
 };
 
 const std::string kWords =
@@ -64,9 +43,8 @@ std::string bent(double sense, int from = -34, int to = 34) {
 }  // namespace
 
 TEST_F(ImportSurface, WritesThreeRowsUnderTheirConditions) {
-  write(bent(1));
-  const Outcome done = run(kOne + "--speed 0.5 --fill 0.505 --wall glass --material beads --role check");
-  ASSERT_EQ(done.status, 0) << done.text;
+  write_surface(bent(1));
+  ASSERT_EQ(import(kOne + "--speed 0.5 --fill 0.505 --wall glass --material beads --role check"), 0) << err_;
   const auto table = rows();
   ASSERT_EQ(table.size(), 3u);
   const char* const names[] = {"angle_mid", "angle_upper", "angle_lower"};
@@ -87,9 +65,8 @@ TEST_F(ImportSurface, WritesThreeRowsUnderTheirConditions) {
 }
 
 TEST_F(ImportSurface, APictureTakenFromTheOtherSideIsTurnedRound) {
-  write(bent(-1));
-  const Outcome done = run(kOne + "--uphill-right");
-  ASSERT_EQ(done.status, 0) << done.text;
+  write_surface(bent(-1));
+  ASSERT_EQ(import(kOne + "--uphill-right"), 0) << err_;
   EXPECT_NEAR(rows()[1].value, 35, 1e-6);
   EXPECT_NEAR(rows()[2].value, 20, 1e-6);
 }
@@ -105,10 +82,9 @@ TEST_F(ImportSurface, EmptyFieldsAreNoPoints) {
     if (x > -30 && x < 30) text << -0.9 * x;
     text << "\n";
   }
-  write(text.str());
-  ASSERT_EQ(run("surface.csv --y-column slow --test slow " + kWords).status, 0);
-  const Outcome second = run("surface.csv --y-column fast --test fast --append " + kWords);
-  ASSERT_EQ(second.status, 0) << second.text;
+  write_surface(text.str());
+  ASSERT_EQ(import("surface.csv --y-column slow --test slow " + kWords), 0);
+  ASSERT_EQ(import("surface.csv --y-column fast --test fast --append " + kWords), 0) << err_;
   const auto table = rows();
   ASSERT_EQ(table.size(), 6u);
   for (int k = 0; k < 6; ++k) EXPECT_NEAR(table[k].value, std::atan(k < 3 ? 0.5 : 0.9) * 180 / pi, 1e-9) << k;
@@ -118,9 +94,10 @@ TEST_F(ImportSurface, EmptyFieldsAreNoPoints) {
 TEST_F(ImportSurface, PublishedSurfacesHaveTheirPublishedSlopes) {
   const double stated[2][3] = {{37.4, 38.09, 31.65}, {46.14, 43.8, 26.93}};
   for (int k = 0; k < 2; ++k) {
-    const Outcome done = run(VIELTO_SOURCE_DIR "/findings/granudrum/surfaces.csv --test A --y-column " +
-                             std::string(k == 0 ? "y_10rpm_mm " : "y_30rpm_mm ") + kWords);
-    ASSERT_EQ(done.status, 0) << done.text;
+    ASSERT_EQ(import(VIELTO_SOURCE_DIR "/findings/granudrum/surfaces.csv --test A --y-column " +
+                     std::string(k == 0 ? "y_10rpm_mm " : "y_30rpm_mm ") + kWords),
+              0)
+        << err_;
     const auto table = rows();
     for (int i = 0; i < 3; ++i) EXPECT_NEAR(table[i].value, stated[k][i], 0.005) << table[i].observable;
   }
@@ -128,12 +105,10 @@ TEST_F(ImportSurface, PublishedSurfacesHaveTheirPublishedSlopes) {
 
 TEST_F(ImportSurface, BadInputIsOneLine) {
   const auto refused = [&](const std::string& text, const std::string& options, std::vector<std::string> words) {
-    write(text);
-    const Outcome done = run(options);
-    EXPECT_EQ(done.status, 2) << done.text;
-    EXPECT_EQ(std::count(done.text.begin(), done.text.end(), '\n'), 1) << done.text;
-    for (const std::string& word : words)
-      EXPECT_NE(done.text.find(word), std::string::npos) << word << ": " << done.text;
+    write_surface(text);
+    EXPECT_EQ(import(options), 2) << err_;
+    EXPECT_EQ(std::count(err_.begin(), err_.end(), '\n'), 1) << err_;
+    for (const std::string& word : words) EXPECT_NE(err_.find(word), std::string::npos) << word << ": " << err_;
     EXPECT_FALSE(fs::exists(folder_ / "observations.csv"));
   };
   refused("x_mm\n1\n2\n", kOne, {"surface.csv", "no column 'y_mm'", "x_mm"});

@@ -2,8 +2,6 @@
 // `vielto import yade` through its command line: synthetic torque text with a known answer, files that Yade itself
 // wrote (tests/data/yade), and bad input.
 #include <gtest/gtest.h>
-#include <stdlib.h>
-#include <sys/wait.h>
 
 #include <algorithm>
 #include <cmath>
@@ -14,18 +12,14 @@
 #include <string>
 
 #include "core/observation_table.h"
+#include "tests/cli/command_test.h"
 
 namespace {
 
 namespace fs = std::filesystem;
 const double kPi = std::acos(-1.0);
+using vielto_test::content;
 const std::string kData = VIELTO_SOURCE_DIR "/tests/data/yade/";
-
-std::string content(const fs::path& path) {
-  std::ostringstream out;
-  out << std::ifstream(path, std::ios::binary).rdbuf();
-  return out.str();
-}
 
 // What plot.saveDataTxt writes: names after '#', tabs, one row a call.
 struct YadePlot {
@@ -51,24 +45,10 @@ struct YadePlot {
   }
 };
 
-class ImportYade : public testing::Test {
+class ImportYade : public vielto_test::CommandTest {
  protected:
-  void SetUp() override {
-    std::string name = (fs::temp_directory_path() / "vielto-test-XXXXXX").string();
-    folder_ = mkdtemp(name.data());
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
-  void write(const std::string& name, const std::string& text) {
-    std::ofstream(folder_ / name, std::ios::binary) << text;
-  }
   int import(const std::string& arguments, const std::string& test = "A") {
-    const std::string command = "cd '" + folder_.string() +
-                                "' && '" VIELTO_BIN_DIR "/vielto' import yade --out table.csv --test " + test + " " +
-                                arguments + " > out.txt 2> err.txt";
-    const int status = std::system(command.c_str());
-    err_ = content(folder_ / "err.txt");
-    return WEXITSTATUS(status);
+    return vielto("import yade --out table.csv --test " + test + " " + arguments);
   }
   std::vector<vielto::Observation> rows() { return vielto::read_observations((folder_ / "table.csv").string()); }
   void refuses(const std::string& arguments, const std::string& what) {
@@ -79,8 +59,6 @@ class ImportYade : public testing::Test {
   }
 
   const std::string torque_ = "--torque plot.txt --torque-column Tx --speed 1.25 --fill 0.15 ";
-  fs::path folder_;
-  std::string err_;
 };
 
 // P = 2 pi n T. Without noise the trapezoidal means are exact but for the swing's, whose mean over whole turns is 0.
@@ -121,7 +99,7 @@ TEST_F(ImportYade, StartUpIsLeftOut) {
   write("plot.txt", plot.text());
   ASSERT_EQ(import(torque_), 0) << err_;
   EXPECT_NEAR(rows()[0].value, 2 * kPi * 1.25 * 2, 0.01 * 2 * kPi * 1.25 * 2);
-  EXPECT_NE(content(folder_ / "out.txt").find("12 whole turns"), std::string::npos);
+  EXPECT_NE(out_.find("12 whole turns"), std::string::npos);
 }
 
 TEST_F(ImportYade, ColumnsUnitsAndStartAreTheUsers) {
@@ -147,7 +125,7 @@ TEST_F(ImportYade, ColumnsUnitsAndStartAreTheUsers) {
       << err_;
   EXPECT_NEAR(rows()[0].value, 2 * kPi * 1.25 * 2, 1e-6);
   EXPECT_FALSE(rows()[0].fill);
-  EXPECT_NE(content(folder_ / "out.txt").find("7 whole turns"), std::string::npos);
+  EXPECT_NE(out_.find("7 whole turns"), std::string::npos);
 }
 
 TEST_F(ImportYade, IdlingMakesTwoRowsAndRippleAThird) {
@@ -275,8 +253,7 @@ TEST_F(ImportYade, ARowThatAloneMovesTheMeanIsNamed) {
   row.replace(0, row.find('\t'), "2000");
   write("plot.txt", text.replace(at, end - at, row));
   ASSERT_EQ(import(torque_), 0) << err_;
-  EXPECT_NE(content(folder_ / "out.txt").find("note: the torque near turn 4."), std::string::npos)
-      << content(folder_ / "out.txt");
+  EXPECT_NE(out_.find("note: the torque near turn 4."), std::string::npos) << out_;
 }
 
 TEST_F(ImportYade, RefusesBadInputInOneLine) {

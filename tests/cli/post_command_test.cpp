@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // `vielto post` through its command line, on synthetic records with a known answer.
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
 #include <cmath>
 #include <cstdlib>
@@ -11,45 +10,27 @@
 #include <sstream>
 
 #include "core/observation_table.h"
+#include "tests/cli/command_test.h"
 #include "tests/rigs/synthetic_record.h"
 
 namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
+using vielto_test::content;
 const double kPi = std::acos(-1.0);
 
-std::string content(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  std::ostringstream out;
-  out << in.rdbuf();
-  return out.str();
-}
-
-class PostCommand : public testing::Test {
+class PostCommand : public vielto_test::CommandTest {
  protected:
   void SetUp() override {
-    const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = fs::temp_directory_path() / (std::string("post_command_") + info->name());
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
     // Without noise every answer is exact.
     quiet_.noise = 0;
     quiet_.idle_noise = 0;
     idle_ = quiet_;
     idle_.fill = 0;
   }
-  void TearDown() override { fs::remove_all(folder_); }
 
-  // Runs `vielto post ARGUMENTS` in the folder; the exit status.
-  int post(const std::string& arguments) {
-    const std::string command =
-        "cd '" + folder_.string() + "' && '" VIELTO_BIN_DIR "/vielto' post " + arguments + " > out.txt 2> err.txt";
-    const int status = std::system(command.c_str());
-    out_ = content(folder_ / "out.txt");
-    err_ = content(folder_ / "err.txt");
-    return WEXITSTATUS(status);
-  }
+  int post(const std::string& arguments) { return vielto("post " + arguments); }
   json power(const std::string& run = "run") { return json::parse(content(folder_ / run / "post" / "power.json")); }
   void expect_refusal(const std::string& arguments, const std::string& start) {
     EXPECT_EQ(post(arguments), 2) << arguments;
@@ -58,9 +39,7 @@ class PostCommand : public testing::Test {
     EXPECT_EQ(out_, "");
   }
 
-  fs::path folder_;
   SyntheticRecord quiet_, idle_;
-  std::string out_, err_;
 };
 
 // Slice: 4 * 0.15 + 0.1 + 0.05 = 0.75 N m; whole shaft times 22/4: 4.125 N m. Records are printed with nine digits.

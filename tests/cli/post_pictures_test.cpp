@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // `vielto post --pictures`: what is drawn where, read back from the PNG files.
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 #include <vtkImageData.h>
 #include <vtkNew.h>
 #include <vtkPNGReader.h>
@@ -14,6 +13,7 @@
 #include <functional>
 #include <sstream>
 
+#include "tests/cli/command_test.h"
 #include "tests/rigs/synthetic_record.h"
 
 namespace {
@@ -54,27 +54,16 @@ bool solid_grey(Colour c) {
 
 bool straw(Colour c) { return c[0] > c[1] + 10 && c[1] > c[2] + 30; }  // grains at rest
 
-class PostPictures : public testing::Test {
+class PostPictures : public vielto_test::CommandTest {
  protected:
   void SetUp() override {
-    const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = fs::temp_directory_path() / (std::string("post_pictures_") + info->name());
-    fs::remove_all(folder_);
     fs::create_directories(folder_ / "run/vtk");
     fs::create_directories(folder_ / "run/mesh");
     record_.turns = 6;
   }
-  void TearDown() override { fs::remove_all(folder_); }
 
   int post(const std::string& before, const std::string& arguments) {
-    const std::string command = "cd '" + folder_.string() + "' && " + before + " '" VIELTO_BIN_DIR "/vielto' post " +
-                                arguments + " > out.txt 2> err.txt";
-    const int status = std::system(command.c_str());
-    std::ifstream in(folder_ / "err.txt");
-    std::ostringstream text;
-    text << in.rdbuf();
-    err_ = text.str();
-    return WEXITSTATUS(status);
+    return run(before + " '" VIELTO_BIN_DIR "/vielto' post " + arguments);
   }
   int draw() { return post("xvfb-run -a", "run --pictures"); }
 
@@ -97,9 +86,7 @@ class PostPictures : public testing::Test {
     out << "endsolid plate\n";
   }
 
-  fs::path folder_;
   SyntheticRecord record_;
-  std::string err_;
 };
 
 TEST_F(PostPictures, WithoutADisplayIsSaidInOneLine) {

@@ -2,7 +2,6 @@
 // `vielto report` through its command line: what the page and the files beside it hold, what is refused, and what a
 // browser makes of the page.
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
 #include <algorithm>
 #include <cmath>
@@ -13,6 +12,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "tests/cli/command_test.h"
 #include "tests/rigs/synthetic_record.h"
 
 namespace {
@@ -20,15 +20,10 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
+using vielto_test::content;
+
 const fs::path kSource = VIELTO_SOURCE_DIR;
 const std::string kVielto = "'" VIELTO_BIN_DIR "/vielto'";
-
-std::string text_of(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  std::ostringstream text;
-  text << in.rdbuf();
-  return text.str();
-}
 
 std::size_t count(const std::string& text, const std::string& part) {
   std::size_t n = 0;
@@ -39,7 +34,7 @@ std::size_t count(const std::string& text, const std::string& part) {
 // The points of one series of a plot's CSV.
 std::vector<std::array<double, 2>> series(const fs::path& path, const std::string& name) {
   std::vector<std::array<double, 2>> points;
-  std::istringstream in(text_of(path));
+  std::istringstream in(content(path));
   for (std::string line; std::getline(in, line);)
     if (line.rfind(name + ",", 0) == 0) {
       std::array<double, 2> point{};
@@ -49,27 +44,10 @@ std::vector<std::array<double, 2>> series(const fs::path& path, const std::strin
   return points;
 }
 
-class Report : public testing::Test {
+class Report : public vielto_test::CommandTest {
  protected:
-  void SetUp() override {
-    folder_ = fs::temp_directory_path() /
-              (std::string("vielto_report_") + testing::UnitTest::GetInstance()->current_test_info()->name());
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
-  int run(const std::string& command) {
-    const int status =
-        std::system(("cd '" + folder_.string() + "' && env -u DISPLAY " + command + " >out.txt 2>err.txt").c_str());
-    err_ = text_of(folder_ / "err.txt");
-    return WEXITSTATUS(status);
-  }
+  int run(const std::string& command) { return CommandTest::run("env -u DISPLAY " + command); }
   int report(const std::string& arguments) { return run(kVielto + " report " + arguments); }
-  void write(const std::string& name, const std::string& text) {
-    fs::create_directories((folder_ / name).parent_path());
-    std::ofstream(folder_ / name, std::ios::binary) << text;
-  }
 
   // A finished run: its record, what `vielto post` makes of it, and what `liggghts` writes about itself.
   void make_run(const std::string& name, double speed = 1.21) {
@@ -104,7 +82,7 @@ class Report : public testing::Test {
   }
 
   void make_diagnosis(const std::string& name, bool with_points = true) {
-    json d = json::parse(text_of(kSource / "findings/wheat_walls/diagnosis.json"));
+    json d = json::parse(content(kSource / "findings/wheat_walls/diagnosis.json"));
     d["verdict"] = "named";
     d["named"] = {"drive_loss"};
     d["group"] = json::array();
@@ -136,9 +114,6 @@ class Report : public testing::Test {
         }
     write(name + "/diagnosis.json", d.dump());
   }
-
-  fs::path folder_;
-  std::string err_;
 };
 
 // Expected from the generator's own numbers, not from the program: 4 paddles of 0.15 N m, stems 0.1 and shaft 0.05 in a
@@ -172,11 +147,11 @@ TEST_F(Report, OfOneRunHoldsItsNumbersPlotsAndProvenance) {
   EXPECT_NEAR(line.back()[1], published, 1e-6 * published);
 
   for (const char* plot : {"power_over_speed", "power_over_fill", "parity", "torque_over_time", "torque_over_phase"}) {
-    const std::string svg = text_of(out / (std::string(plot) + ".svg"));
+    const std::string svg = content(out / (std::string(plot) + ".svg"));
     EXPECT_EQ(svg.rfind("<svg", 0), 0u) << plot;
     EXPECT_GT(count(svg, "<path"), 5u) << plot;
   }
-  const std::string page = text_of(out / "report.html");
+  const std::string page = content(out / "report.html");
   for (const char* part : {"Mixing power", "liggghts -in in.mixer -var seed 7", "499b6742", "version of vielto",
                            "Provisional", "post/power.json"})
     EXPECT_NE(page.find(part), std::string::npos) << part;
@@ -190,7 +165,7 @@ TEST_F(Report, OfACampaignListsItsRuns) {
   make_run("grid/slow", 0.48);
   make_run("grid/fast", 1.58);
   ASSERT_EQ(report("grid"), 0) << err_;
-  const std::string page = text_of(folder_ / "grid/report/report.html");
+  const std::string page = content(folder_ / "grid/report/report.html");
   EXPECT_EQ(count(page, "<details>"), 3u);  // each run, and the parameters of both
   EXPECT_NE(page.find("Runs evaluated"), std::string::npos);
   EXPECT_TRUE(fs::exists(folder_ / "grid/report/slow_torque_over_time.svg"));
@@ -211,7 +186,7 @@ TEST_F(Report, OfAFitShowsParityAndResidualsOverEveryGroup) {
   ASSERT_EQ(band.size(), 4u);
   EXPECT_NEAR(band[1][1] / band[1][0], 1.145, 1e-12);
   EXPECT_NEAR(band[3][1] / band[3][0], 0.855, 1e-12);
-  const std::string page = text_of(folder_ / "page/report.html");
+  const std::string page = content(folder_ / "page/report.html");
   EXPECT_NE(page.find("B2+B3"), std::string::npos);
   EXPECT_NE(page.find("not determined"), std::string::npos);
 }
@@ -224,7 +199,7 @@ TEST_F(Report, OfAnotherRigDrawsItsColumnsByUnit) {
   ASSERT_EQ(force.size(), 40u);
   EXPECT_NEAR(force.back()[0], 0.4, 1e-9);
   EXPECT_NEAR(force.back()[1], 30 * (1 - std::exp(-4.0)), 1e-4);
-  const std::string page = text_of(out / "report.html");
+  const std::string page = content(out / "report.html");
   EXPECT_NE(page.find("shear_stress_peak_Pa"), std::string::npos);
   EXPECT_EQ(page.find("<script>alert"), std::string::npos);  // text from files is text
 }
@@ -234,7 +209,7 @@ TEST_F(Report, OfADiagnosisShowsVerdictMapAndBands) {
   make_diagnosis("answer");
   ASSERT_EQ(report("answer"), 0) << err_;
   const fs::path out = folder_ / "answer/report";
-  const std::string page = text_of(out / "report.html");
+  const std::string page = content(out / "report.html");
   for (const char* part :
        {"<p class=\"verdict\">There is a gap, explained by drive loss", "Cause named", "with drive loss",
         "Map of the gap", "any other two together", "Next test", "weigh the load", "The reference state"})
@@ -250,11 +225,11 @@ TEST_F(Report, OfADiagnosisShowsVerdictMapAndBands) {
   const auto map = series(out / "diagnosis_mixer_power_gap_before.csv", "4");  // rows speed,fill,gap: those of speed 4
   ASSERT_EQ(map.size(), 4u);
   for (const auto& cell : map) EXPECT_NEAR(cell[1], 40, 1e-9);
-  EXPECT_EQ(text_of(out / "diagnosis_mixer_power_over_speed_fill_0_1.svg").rfind("<svg", 0), 0u);
+  EXPECT_EQ(content(out / "diagnosis_mixer_power_over_speed_fill_0_1.svg").rfind("<svg", 0), 0u);
   // An answer without points, as older ones are, still makes a page; one without a verdict's numbers is refused.
   make_diagnosis("old", false);
   ASSERT_EQ(report("old"), 0) << err_;
-  EXPECT_NE(text_of(folder_ / "old/report/report.html").find("has no points"), std::string::npos);
+  EXPECT_NE(content(folder_ / "old/report/report.html").find("has no points"), std::string::npos);
   write("bad/diagnosis.json", R"({"verdict": "named", "sentence": "", "probabilities": {}})");
   EXPECT_EQ(report("bad"), 2);
   EXPECT_NE(err_.find("bad/diagnosis.json: is no diagnosis"), std::string::npos) << err_;
@@ -268,7 +243,7 @@ TEST_F(Report, OfADiagnosisShowsVerdictMapAndBands) {
 // holds.
 TEST_F(Report, NamesThatWouldBeMarkupAreText) {
   make_diagnosis("answer");
-  json d = json::parse(text_of(folder_ / "answer/diagnosis.json"));
+  json d = json::parse(content(folder_ / "answer/diagnosis.json"));
   const std::string name = "<!--<script>alert(1)</script>";
   for (auto& point : d["points"]) point["test"] = name + point["test"].get<std::string>();
   d["sentence"] = "There is a gap " + name;
@@ -276,7 +251,7 @@ TEST_F(Report, NamesThatWouldBeMarkupAreText) {
   write("answer/diagnosis.json", d.dump());
   write("answer/" + std::string("<b>.csv"), "a,b\n1,2\n3,4\n");
   ASSERT_EQ(report("answer"), 0) << err_;
-  const std::string page = text_of(folder_ / "answer/report/report.html");
+  const std::string page = content(folder_ / "answer/report/report.html");
   EXPECT_EQ(count(page, "<!--<script"), 0u);
   EXPECT_EQ(count(page, "alert(1)</script>"), 0u);
   EXPECT_EQ(count(page, "<b>"), 0u);
@@ -302,7 +277,7 @@ TEST_F(Report, RefusesJsonThatNestsTooDeep) {
 TEST_F(Report, RefusesInOneLineAndLeavesNothing) {
   make_run("run");
   fs::create_directories(folder_ / "empty");
-  write("broken/torque.csv", text_of(folder_ / "run/torque.csv").substr(0, 3000));
+  write("broken/torque.csv", content(folder_ / "run/torque.csv").substr(0, 3000));
   write("number/post/power.json", "{\"power_W\": ");
   fs::copy_file(folder_ / "run/torque.csv", folder_ / "number/torque.csv");
   write("table/shear.csv", "time_s,force_N\n1,2\n3\n");
@@ -322,7 +297,7 @@ TEST_F(Report, RefusesInOneLineAndLeavesNothing) {
     EXPECT_NE(entry.path().filename(), "report") << entry.path();
     EXPECT_NE(entry.path().extension(), ".partial") << entry.path();
   }
-  EXPECT_EQ(text_of(folder_ / "other/letter.txt"), "mine");
+  EXPECT_EQ(content(folder_ / "other/letter.txt"), "mine");
 }
 
 // A program installed without the plotting library (built without a network) says where to get it, and makes the rest.
@@ -337,7 +312,7 @@ TEST_F(Report, WithoutThePlottingLibraryAsksForIt) {
   EXPECT_NE(err_.find("scripts/get-echarts"), std::string::npos) << err_;
   EXPECT_FALSE(fs::exists(folder_ / "run/report"));
   ASSERT_EQ(run("install/bin/vielto report run --no-plots"), 0) << err_;
-  EXPECT_NE(text_of(folder_ / "run/report/report.html").find("The plots were left out"), std::string::npos);
+  EXPECT_NE(content(folder_ / "run/report/report.html").find("The plots were left out"), std::string::npos);
   EXPECT_TRUE(fs::exists(folder_ / "run/report/parity.csv"));
   EXPECT_FALSE(fs::exists(folder_ / "run/report/parity.svg"));
 }
@@ -353,7 +328,7 @@ class ReportInABrowser : public Report {
     EXPECT_EQ(run("/usr/bin/python3 '" + (kSource / "tests/cli/report_browser.py").string() + "' " + page + " shots"),
               0)
         << err_;
-    return json::parse(text_of(folder_ / "out.txt"), nullptr, false);
+    return json::parse(content(folder_ / "out.txt"), nullptr, false);
   }
 };
 

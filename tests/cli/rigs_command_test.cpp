@@ -3,7 +3,6 @@
 // when it is compiled, in an observation table, an effect and the plan of a response library.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -14,10 +13,13 @@
 #include <sstream>
 #include <string>
 
+#include "tests/cli/command_test.h"
+
 namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
+using vielto_test::content;
 
 const char* const kHopper = R"([hopper]
 title = "steep hopper"
@@ -31,45 +33,24 @@ work = "volume * seconds"
 outflow = ["kg/s", "mass flow"]
 )";
 
-class Rigs : public testing::Test {
+class Rigs : public vielto_test::CommandTest {
  protected:
   void SetUp() override {
-    folder_ = fs::temp_directory_path() / fmt::format("vielto_rigs_{}", getpid());
-    fs::create_directories(folder_);
     write("own.toml", kHopper);
     write("in.hopper", "print hopper\n");
     write("hopper.par", "variable volume index 0.01 # m3 | - | a test\nvariable wetness index 0 # 1 | - | a test\n");
   }
-  void TearDown() override { fs::remove_all(folder_); }
-
-  void write(const std::string& name, const std::string& text) {
-    fs::create_directories((folder_ / name).parent_path());
-    std::ofstream(folder_ / name, std::ios::binary) << text;
-  }
-  std::string read(const std::string& name) {
-    std::ifstream in(folder_ / name);
-    std::ostringstream text;
-    text << in.rdbuf();
-    return text.str();
-  }
-  int vielto(const std::string& arguments) {
-    return WEXITSTATUS(std::system(
-        fmt::format("cd '{}' && '{}/vielto' {} >out 2>err", folder_.string(), VIELTO_BIN_DIR, arguments).c_str()));
-  }
   void expect_refused(const std::string& arguments, const std::string& why) {
     EXPECT_EQ(vielto(arguments), 2) << arguments;
-    const std::string said = read("err");
-    EXPECT_NE(said.find(why), std::string::npos) << "expected: " << why << "\ngot: " << said;
-    EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 1) << said;
+    EXPECT_NE(err_.find(why), std::string::npos) << "expected: " << why << "\ngot: " << err_;
+    EXPECT_EQ(std::count(err_.begin(), err_.end(), '\n'), 1) << err_;
   }
-
-  fs::path folder_;
 };
 
 // Scripts, pages and programs rest on what this prints.
 TEST_F(Rigs, TheTableIsPrintedAsJson) {
-  ASSERT_EQ(vielto("rigs --json"), 0) << read("err");
-  const json table = json::parse(read("out"));
+  ASSERT_EQ(vielto("rigs --json"), 0) << err_;
+  const json table = json::parse(out_);
   EXPECT_EQ(table["schema"], 1);
   std::vector<std::string> rigs;
   for (const json& rig : table["apparatuses"])
@@ -94,12 +75,12 @@ TEST_F(Rigs, TheTableIsPrintedAsJson) {
 TEST_F(Rigs, PeopleReadTheSameTable) {
   ASSERT_EQ(vielto("rigs"), 0);
   for (const char* text : {"mixer: ", "cases/mixer/in.mixer", "torque_ripple", "(-var normalStress)", "kg/m3"})
-    EXPECT_NE(read("out").find(text), std::string::npos) << text;
+    EXPECT_NE(out_.find(text), std::string::npos) << text;
 }
 
 TEST_F(Rigs, AnOwnRigIsOneMore) {
-  ASSERT_EQ(vielto("rigs --json --rigs own.toml"), 0) << read("err");
-  const json table = json::parse(read("out"));
+  ASSERT_EQ(vielto("rigs --json --rigs own.toml"), 0) << err_;
+  const json table = json::parse(out_);
   const json& own = table["apparatuses"].back();
   EXPECT_EQ(own["name"], "hopper");
   EXPECT_EQ(own["script"], "in.hopper");
@@ -114,8 +95,8 @@ TEST_F(Rigs, AnOwnRigsTestsAreAnObservationTable) {
       "a,fit,hopper,outflow,{},0.1,kg/s,,,0.1,,,,,millet\n";
   write("a.csv", fmt::format(fmt::runtime(rows), 2));
   write("b.csv", fmt::format(fmt::runtime(rows), 3));
-  ASSERT_EQ(vielto("compare a.csv b.csv --rigs own.toml"), 0) << read("err");
-  EXPECT_NE(read("out").find("outflow"), std::string::npos);
+  ASSERT_EQ(vielto("compare a.csv b.csv --rigs own.toml"), 0) << err_;
+  EXPECT_NE(out_.find("outflow"), std::string::npos);
   expect_refused("compare a.csv b.csv",
                  "a.csv, line 2, column apparatus: 'hopper' is no apparatus; write one of mixer");
 }
@@ -129,8 +110,8 @@ TEST_F(Rigs, AnOwnRigIsPlannedWithAnEffectOfItsOwn) {
   write("lib/own/plan.toml",
         "seeds = 6\n[[rig]]\nname = \"hopper\"\nconditions = [{moisture = 0.1}]\n[[rig.effect]]\nname = \"wet\"\n"
         "strengths = [0.1]\nat = [1]\n");
-  ASSERT_EQ(vielto("gap plan lib/own/plan.toml --rigs own.toml --out study.csv"), 0) << read("err");
-  const std::string study = read("study.csv");
+  ASSERT_EQ(vielto("gap plan lib/own/plan.toml --rigs own.toml --out study.csv"), 0) << err_;
+  const std::string study = content(folder_ / "study.csv");
   EXPECT_EQ(study.substr(0, study.find('\n')), "run,rig,seed,volume,wetness");
   EXPECT_NE(study.find("hopper1_wet0.1_s301,hopper,301,0.011,0.1"), std::string::npos) << study;
   expect_refused("gap plan lib/own/plan.toml --out study2.csv", "rigs: 'hopper' is no rig; write one of mixer");
@@ -149,9 +130,9 @@ TEST_F(Rigs, AnOwnRigTakesTheEffectsOfAnother) {
   const fs::path libraries = fs::path(VIELTO_SOURCE_DIR) / "libraries";
   fs::copy(libraries / "effects/wall_friction.toml", folder_ / "lib/effects/wall_friction.toml");
   fs::copy(libraries / "diagnosis.toml", folder_ / "lib/diagnosis.toml");
-  ASSERT_EQ(vielto("gap plan lib/own/plan.toml --rigs like.toml --out study.csv"), 0) << read("err");
-  EXPECT_NE(read("study.csv").find("hopper1_wall_friction4_s301,hopper,301,28,0.1"), std::string::npos)
-      << read("study.csv");
+  ASSERT_EQ(vielto("gap plan lib/own/plan.toml --rigs like.toml --out study.csv"), 0) << err_;
+  EXPECT_NE(content(folder_ / "study.csv").find("hopper1_wall_friction4_s301,hopper,301,28,0.1"), std::string::npos)
+      << content(folder_ / "study.csv");
   expect_refused("gap plan lib/own/plan.toml --rigs own.toml --out study2.csv",
                  "name: does nothing in hopper; leave it out");
   text.replace(text.find("repose"), 6, "sieve");

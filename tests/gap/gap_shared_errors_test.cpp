@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Rows that share their errors wholly or nearly, and other tables whose covariance has no inverse or whose u is tiny:
 // `vielto gap` through its command line, on the wheat library and the published angles of wall B.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>

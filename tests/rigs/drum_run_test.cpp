@@ -70,11 +70,6 @@ TEST(DrumRun, TiltedRestsOnItsLowerEnd) {
   EXPECT_LT(middle(rig.csv("tilted/bed_3.csv")).x, 0.022);
 }
 
-struct Refusal {
-  std::string name, option;
-  std::vector<std::string> words;
-};
-void PrintTo(const Refusal& r, std::ostream* out) { *out << r.option; }
 class DrumRefuses : public testing::TestWithParam<Refusal> {};
 
 TEST_P(DrumRefuses, WithOneLine) {
@@ -95,4 +90,4 @@ INSTANTIATE_TEST_SUITE_P(
                     Refusal{"TimeStepOverLimit", "-var dtFraction 0.06", {"dtFraction is 0.06", "0.05"}},
                     Refusal{"UnknownWall", "-var wall marble", {"marble.par", "name an existing"}},
                     Refusal{"MisspelledParameter", "-var titl 1", {"-var titl", "no such parameter"}}),
-    [](const auto& one) { return one.param.name; });
+    name_of);

@@ -25,7 +25,7 @@ std::vector<double> turn_means(const Table& table) {
    of the uncertainty asked for (a dozen of turns tell it to a third). */
 TEST(MixerUntilKnown, EndsAtATurnWithTheUncertaintyAskedFor) {
   Mixer mixer;
-  const Outcome done = mixer.mixer("run", two, ends);
+  const Outcome done = mixer.rig("run", two, ends);
   ASSERT_EQ(done.status, 0) << done.text;
   EXPECT_NE(done.text.find("mean power known to"), std::string::npos) << done.text;
   const Table table = mixer.csv("run/torque.csv");
@@ -44,7 +44,7 @@ TEST(MixerUntilKnown, DecidesOnTheWholeRecordWhenResumed) {
   Mixer mixer;
   mixer.must("whole", two, ends);
   mixer.must_break_off("broken", ends + two);
-  const Outcome done = mixer.mixer("broken", ends + two, "-var resume yes ");
+  const Outcome done = mixer.rig("broken", ends + two, "-var resume yes ");
   ASSERT_EQ(done.status, 0) << done.text;
   // the bed's own chaos makes its turns other ones after the restart; what was there before counts
   const std::vector<double> whole = turn_means(mixer.csv("whole/torque.csv")),
@@ -57,7 +57,7 @@ TEST(MixerUntilKnown, DecidesOnTheWholeRecordWhenResumed) {
 
 TEST(MixerUntilKnown, SaysThatItCannot) {
   Mixer mixer;
-  const Outcome done = mixer.mixer("run", two, "-var powerUncertainty 0.0001 -var turns 5 -var rowsPerTurn 72 ");
+  const Outcome done = mixer.rig("run", two, "-var powerUncertainty 0.0001 -var turns 5 -var rowsPerTurn 72 ");
   ASSERT_EQ(done.status, 0) << done.text;
   EXPECT_NE(done.text.find("Warning: after 5 turns the mean power is not known to 0.01 %"), std::string::npos)
       << done.text;

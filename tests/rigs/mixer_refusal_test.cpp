@@ -8,13 +8,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-struct Refusal {
-  std::string name, option;
-  std::vector<std::string> words;
-};
-
-void PrintTo(const Refusal& r, std::ostream* out) { *out << r.option; }
-
 class MixerRefuses : public testing::TestWithParam<Refusal> {};
 
 void copy_cards(const Mixer& mixer) { fs::copy(VIELTO_SOURCE_DIR "/materials", mixer.folder / "cards"); }
@@ -32,7 +25,7 @@ void remove_parameter(const Mixer& mixer, const std::string& card, const std::st
 
 TEST_P(MixerRefuses, WithOneLine) {
   Mixer mixer;
-  expect_refusal(mixer.folder / "run", mixer.mixer("run", two, GetParam().option), GetParam().words);
+  expect_refusal(mixer.folder / "run", mixer.rig("run", two, GetParam().option), GetParam().words);
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -82,22 +75,21 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"MassBelowOneGrain", "-var fill 0.0001", {"mass that cannot be placed", "raise fill"}},
         Refusal{"OverlapOverLimit", "-var maxOverlap 0.002", {"step", "overlap of grain", "maxOverlap"}},
         Refusal{"TorqueOverLimit", "-var maxTorque 0.05", {"step", "torque of", "grain", "maxTorque"}}),
-    [](const auto& one) { return one.param.name; });
+    name_of);
 
 TEST(MixerRefusesCard, WithoutAPropertyOfGrainOrWall) {
   Mixer mixer;
   const std::string cards = fmt::format("-var materials '{}/cards'", mixer.folder.string());
   copy_cards(mixer);
   remove_parameter(mixer, "cards/steel.par", "rollingResistance");
-  expect_refusal(mixer.folder / "run", mixer.mixer("run", two, cards), {"steel.par", "rollingResistance", "missing"});
+  expect_refusal(mixer.folder / "run", mixer.rig("run", two, cards), {"steel.par", "rollingResistance", "missing"});
   remove_parameter(mixer, "cards/hulled_millet.par", "frictionAngle");
-  expect_refusal(mixer.folder / "run", mixer.mixer("run", two, cards),
-                 {"hulled_millet.par", "frictionAngle", "missing"});
+  expect_refusal(mixer.folder / "run", mixer.rig("run", two, cards), {"hulled_millet.par", "frictionAngle", "missing"});
 }
 
 TEST(MixerRefusesCard, OnTwoRanksWithOneLineToo) {
   Mixer mixer;
-  expect_refusal(mixer.folder / "run", mixer.mixer("run", two, "-var grain moon_dust", 2),
+  expect_refusal(mixer.folder / "run", mixer.rig("run", two, "-var grain moon_dust", 2),
                  {"moon_dust.par", "cannot be read"});
 }
 
@@ -121,7 +113,7 @@ TEST(MixerRefusesFolder, ThatIsThereAlready) {
   Mixer mixer;
   fs::create_directory(mixer.folder / "run");
   mixer.write("run/torque.csv", "precious");
-  const Outcome outcome = mixer.mixer("run", two);
+  const Outcome outcome = mixer.rig("run", two);
   EXPECT_NE(outcome.status, 0);
   EXPECT_NE(outcome.text.find("is there already"), std::string::npos) << outcome.text;
   EXPECT_EQ(mixer.read("run/torque.csv"), "precious");
@@ -135,19 +127,19 @@ TEST(MixerRefusesMesh, ThatIsNotTheRunsOwn) {
   mixer.must_break_off("run", options);
   const std::string mesh = (mixer.folder / "run.partial/mesh").string();
   fs::rename(mesh + "/shaft.stl", mesh + "/shaft");
-  expect_refusal(mixer.folder / "run", mixer.mixer("run", options, "-var resume yes"), {"shaft.stl"});
+  expect_refusal(mixer.folder / "run", mixer.rig("run", options, "-var resume yes"), {"shaft.stl"});
   const Outcome made = mixer.shell(fmt::format(
       "'{}/vielto' geometry '{}/cases/mixer/mixer.par' --set slicePaddles=2 --set clearance=0.002 --out '{}'",
       VIELTO_BIN_DIR, VIELTO_SOURCE_DIR, mesh));
   ASSERT_EQ(made.status, 0) << made.text;
-  expect_refusal(mixer.folder / "run", mixer.mixer("run", options, "-var resume yes"),
+  expect_refusal(mixer.folder / "run", mixer.rig("run", options, "-var resume yes"),
                  {"clearance is 0.001", "made with 0.002", "mesh"});
 }
 
 // Grains far too soft for 20 turns a second, with no limit on their overlap: the rotor squeezes one out of the drum.
 TEST(MixerRefusesLoss, OfAGrain) {
   Mixer mixer;
-  const Outcome outcome = mixer.mixer(
+  const Outcome outcome = mixer.rig(
       "run", two, "-var speed 20 -var turns 2 -var maxOverlap 0 -var youngsModulus 2e4 -var wall_youngsModulus 2e4");
   expect_refusal(
       mixer.folder / "run", outcome,
@@ -157,8 +149,7 @@ TEST(MixerRefusesLoss, OfAGrain) {
 // Softer still: they fall through the drum before the rotor turns.
 TEST(MixerRefusesLoss, OfAGrainWhileFilling) {
   Mixer mixer;
-  const Outcome outcome =
-      mixer.mixer("run", two, "-var maxOverlap 0 -var youngsModulus 100 -var wall_youngsModulus 100");
+  const Outcome outcome = mixer.rig("run", two, "-var maxOverlap 0 -var youngsModulus 100 -var wall_youngsModulus 100");
   expect_refusal(mixer.folder / "run", outcome,
                  {"step", "every 1000 steps", "of 179 grains are there; grain ", "was lost", "velocity",
                   "likely grains are too soft"});

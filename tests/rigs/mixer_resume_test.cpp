@@ -75,16 +75,16 @@ TEST(MixerResume, CarriesOnARunThatWasAskedToEnd) {
 
 TEST(MixerResume, RefusesARunBrokenOffBeforeItsFirstRestart) {
   Mixer mixer;
-  const Outcome none = mixer.mixer("none", restarts, "-var resume yes");
+  const Outcome none = mixer.rig("none", restarts, "-var resume yes");
   EXPECT_NE(none.status, 0);
   EXPECT_NE(none.text.find("cannot resume"), std::string::npos) << none.text;
   const std::string partial = (mixer.folder / "early.partial/torque.csv").string();
   mixer.shell(mixer.command_of("early", four) + " & p=$!; until [ -e '" + partial +
               "' ]; do kill -0 $p || exit 99; sleep 0.02; done; kill -9 $p; wait $p");
-  const Outcome early = mixer.mixer("early", four, "-var resume yes");
+  const Outcome early = mixer.rig("early", four, "-var resume yes");
   EXPECT_NE(early.status, 0);
   EXPECT_NE(early.text.find("broken off before the first restart file was complete; start anew"), std::string::npos)
       << early.text;
-  const Outcome other = mixer.mixer("early", four, "-var resume yes -var fill 0.2");
+  const Outcome other = mixer.rig("early", four, "-var resume yes -var fill 0.2");
   EXPECT_NE(other.text.find("it was started with fill 0.15, not 0.2"), std::string::npos) << other.text;
 }

@@ -203,7 +203,7 @@ TEST(MixerWholeDrum, WarnsOfLessThanTwoGrainsBesideItsOuterPaddles) {
   Mixer mixer;
   const std::string brief = "-var fill 0 -var turns 3 -var grainDiameter 0.012 ";
   const auto text = [&](const std::string& name, const std::string& options) {
-    const Outcome outcome = mixer.mixer(name, brief + options);
+    const Outcome outcome = mixer.rig(name, brief + options);
     EXPECT_EQ(outcome.status, 0) << outcome.text;
     return outcome.text;
   };

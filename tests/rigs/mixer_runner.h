@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-#include "tests/engine/liggghts_runner.h"
+#include "rig_runner.h"
 
 namespace vielto_test {
 
@@ -19,29 +19,9 @@ const std::string four =
     "-var maxOverlap 0.5 -var maxTorque 0 -var turns 0.3 ";
 const std::string two = "-var slicePaddles 2 " + four;
 
-class Mixer : public Liggghts {
+class Mixer : public Rig {
  public:
-  // The command line as in cases/mixer/in.mixer; a later -var would be ignored, so `more` goes first.
-  std::string command_of(const std::string& name, const std::string& options, const std::string& more = "",
-                         int ranks = 1, Program program = Program::ours) const {
-    return fmt::format("cd '{}/cases/mixer' && PATH='{}':$PATH {} -log none -in in.mixer -var run '{}' {} {}",
-                       VIELTO_SOURCE_DIR, VIELTO_BIN_DIR, command(ranks, program), (folder / name).string(), more,
-                       options);
-  }
-
-  Outcome mixer(const std::string& name, const std::string& options, const std::string& more = "", int ranks = 1,
-                Program program = Program::ours) {
-    return shell(command_of(name, options, more, ranks, program));
-  }
-
-  // Demands success and a whole run folder.
-  void must(const std::string& name, const std::string& options, const std::string& more = "", int ranks = 1,
-            Program program = Program::ours) {
-    const Outcome outcome = mixer(name, options, more, ranks, program);
-    ASSERT_EQ(outcome.status, 0) << outcome.text;
-    ASSERT_TRUE(std::filesystem::exists(folder / name / "torque.csv")) << outcome.text;
-    ASSERT_FALSE(std::filesystem::exists(folder / (name + ".partial")));
-  }
+  Mixer() : Rig("mixer") {}
 
   // Starts a run and sends it a signal as soon as its record has a row beyond the step of its first restart file.
   Outcome break_off(const std::string& name, const std::string& options, const std::string& signal = "KILL") {

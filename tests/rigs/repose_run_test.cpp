@@ -104,11 +104,6 @@ TEST(ReposeRun, StandsSteeperOnARoughBase) {
   EXPECT_GT(highest("rough"), highest("plain"));
 }
 
-struct Refusal {
-  std::string name, option;
-  std::vector<std::string> words;
-};
-void PrintTo(const Refusal& r, std::ostream* out) { *out << r.option; }
 class ReposeRefuses : public testing::TestWithParam<Refusal> {};
 
 TEST_P(ReposeRefuses, WithOneLine) {
@@ -144,4 +139,4 @@ INSTANTIATE_TEST_SUITE_P(
                 "-var grain fodder_corn -var clump yes -var rollingDashpot on",
                 {"rollingDashpot", "clump no"}},
         Refusal{"NeverAtRest", "-var restDistance 1e-12 -var mostTime 0.15", {"not at rest", "mostTime"}}),
-    [](const auto& one) { return one.param.name; });
+    name_of);

@@ -61,11 +61,6 @@ TEST(StockShearbox, IsFilledSlipperyAndShearedWithTheCardsFriction) {
   EXPECT_GT(force("card", ""), 2 * slippery);
 }
 
-struct Refusal {
-  std::string name, rig, option;
-  std::vector<std::string> words;
-};
-void PrintTo(const Refusal& r, std::ostream* out) { *out << r.option; }
 class StockRefuses : public testing::TestWithParam<Refusal> {};
 
 TEST_P(StockRefuses, WithOneLine) {
@@ -76,25 +71,25 @@ TEST_P(StockRefuses, WithOneLine) {
 INSTANTIATE_TEST_SUITE_P(
     BadInput, StockRefuses,
     testing::Values(
-        Refusal{"Twisting", "drum", "-var law hertz -var twistingResistance 0.2", {"law hertz", "twistingResistance"}},
+        Refusal{"Twisting", "-var law hertz -var twistingResistance 0.2", {"law hertz", "twistingResistance"}, "drum"},
         Refusal{
-            "WallTwisting", "shearbox", "-var law hooke -var wall_twistingResistance 0.2", {"wall_twistingResistance"}},
-        Refusal{"Energy", "mixer", "-var law hooke -var energyBalance on", {"law hooke", "energyBalance on"}},
-        Refusal{"Bonds", "repose", "-var law hertz -var bondNewContacts on", {"bondNewContacts on"}},
-        Refusal{"Dashpot", "drum", "-var law hertz -var wall_tangentialDamping 0.3", {"wall_tangentialDamping 0.3"}},
-        Refusal{"NoRestitution", "drum", "-var law hooke -var normalDamping 3", {"normalDamping", "0.69"}},
-        Refusal{"NoLimit", "drum", "-var law hertz -var maxOverlap 0", {"hertz needs a maxOverlap > 0"}},
-        Refusal{"NoSuchLaw", "drum", "-var law hertzian", {"law is 'hertzian'", "give vielto, cohfrict, hertz"}},
+            "WallTwisting", "-var law hooke -var wall_twistingResistance 0.2", {"wall_twistingResistance"}, "shearbox"},
+        Refusal{"Energy", "-var law hooke -var energyBalance on", {"law hooke", "energyBalance on"}, "mixer"},
+        Refusal{"Bonds", "-var law hertz -var bondNewContacts on", {"bondNewContacts on"}, "repose"},
+        Refusal{"Dashpot", "-var law hertz -var wall_tangentialDamping 0.3", {"wall_tangentialDamping 0.3"}, "drum"},
+        Refusal{"NoRestitution", "-var law hooke -var normalDamping 3", {"normalDamping", "0.69"}, "drum"},
+        Refusal{"NoLimit", "-var law hertz -var maxOverlap 0", {"hertz needs a maxOverlap > 0"}, "drum"},
+        Refusal{"NoSuchLaw", "-var law hertzian", {"law is 'hertzian'", "give vielto, cohfrict, hertz"}, "drum"},
         Refusal{"NoSuchPartner",
-                "drum",
                 "-var law hooke -var cohesion adhesion",
-                {"law hooke takes no cohesion adhesion", "sjkr, sjkr2 or off"}},
-        Refusal{"OwnCohesion", "drum", "-var law cohfrict -var cohesion adhesion", {"law cohfrict", "normalCohesion"}},
+                {"law hooke takes no cohesion adhesion", "sjkr, sjkr2 or off"},
+                "drum"},
+        Refusal{"OwnCohesion", "-var law cohfrict -var cohesion adhesion", {"law cohfrict", "normalCohesion"}, "drum"},
         Refusal{"ParameterOfAnotherLaw",
-                "drum",
                 "-var hertzOverlap 0.02",
-                {"law vielto has no counterpart of hertzOverlap 0.02"}},
-        Refusal{"OutOfRange", "drum", "-var law hertz -var hertzOverlap 0.2", {"hertzOverlap is '0.2'", "(0, 0.1]"}},
-        Refusal{"NoNumber", "drum", "-var law hertz -var poissonsRatio 0,3", {"poissonsRatio is '0,3'", "[0, 0.5]"}},
-        Refusal{"NoWord", "drum", "-var law cohfrict -var bondNewContacts 1", {"bondNewContacts is '1'", "on or off"}}),
-    [](const auto& one) { return one.param.name; });
+                {"law vielto has no counterpart of hertzOverlap 0.02"},
+                "drum"},
+        Refusal{"OutOfRange", "-var law hertz -var hertzOverlap 0.2", {"hertzOverlap is '0.2'", "(0, 0.1]"}, "drum"},
+        Refusal{"NoNumber", "-var law hertz -var poissonsRatio 0,3", {"poissonsRatio is '0,3'", "[0, 0.5]"}, "drum"},
+        Refusal{"NoWord", "-var law cohfrict -var bondNewContacts 1", {"bondNewContacts is '1'", "on or off"}, "drum"}),
+    name_of);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Runs cases/shearbox and cases/repose through their own command lines, in their own folders, with coarse soft grains
-// that make a run of seconds.
+// Runs a rig through its own command line, in its own folder, with coarse soft grains that make a run of seconds.
 //   Rig rig("shearbox");                      // a temporary folder, removed at the end
 //   rig.must("a", coarse_shear);              // run folder a in it
 //   Table rows = rig.csv("a/shear.csv");
@@ -52,5 +51,14 @@ class Rig : public Liggghts {
  private:
   std::string name_;
 };
+
+// An option that a rig refuses with one line that holds the words; `rig` where a test is of several.
+struct Refusal {
+  std::string name, option;
+  std::vector<std::string> words;
+  std::string rig = {};
+};
+inline void PrintTo(const Refusal& refusal, std::ostream* out) { *out << refusal.option; }
+inline std::string name_of(const testing::TestParamInfo<Refusal>& refusal) { return refusal.param.name; }
 
 }  // namespace vielto_test

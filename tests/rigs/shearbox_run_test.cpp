@@ -137,11 +137,6 @@ TEST(ShearboxPost, MakesTheNumbersOfTheRun) {
     EXPECT_NE(table.find(fmt::format("coarse,fit,shearbox,{},", observable)), std::string::npos) << table;
 }
 
-struct Refusal {
-  std::string name, option;
-  std::vector<std::string> words;
-};
-void PrintTo(const Refusal& r, std::ostream* out) { *out << r.option; }
 class ShearboxRefuses : public testing::TestWithParam<Refusal> {};
 
 TEST_P(ShearboxRefuses, WithOneLine) {
@@ -173,7 +168,7 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"BoxNotFull", "-var bulkDensity 500", {"does not fill the box", "overfill"}},
         Refusal{"PlateNotAtRest", "-var maxPlateError 1e-9 -var loadTime 0.02", {"not at rest", "loadTime"}},
         Refusal{"OverlapOverLimit", "-var maxOverlap 0.002", {"overlap of grain", "maxOverlap"}}),
-    [](const auto& one) { return one.param.name; });
+    name_of);
 
 TEST(ShearboxRefusesRun, ThatIsThereOrWasNeverBegun) {
   Rig rig("shearbox");
