@@ -4,10 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -17,8 +15,7 @@
 #include "commands.h"
 #include "core/bad_input.h"
 #include "core/csv.h"
-#include "equation/equation_covariance.h"
-#include "equation/power_equation.h"
+#include "equation/equation_use.h"
 #include "material_options.h"
 #include "row_options.h"
 
@@ -38,59 +35,25 @@ struct PredictOptions {
   std::optional<double> moisture;
 };
 
-struct Setting {
-  std::string source;  // the equation, for messages
-  Equation equation;
-  MixerDimensions mixer;
-  BulkMaterial material;
-  std::optional<BulkMaterial> wall;
-
-  Prediction at(double fill, double speed) const {
-    const Groups groups = groups_of(fill, speed, mixer, material, wall ? &*wall : nullptr);
-    return predict(equation, source, groups, speed, mixer, material);
-  }
-};
-
-Setting setting_of(const PredictOptions& o) {
-  Setting s;
-  s.source = o.thesis ? "the booklet's equation" : o.equation;
-  s.equation = o.thesis ? thesis_equation() : read_equation(o.equation);
-  if (!o.mixer.empty()) s.mixer = MixerDimensions::read(o.mixer);
+EquationUse use_of(const PredictOptions& o) {
+  EquationUse use;
+  use.source = o.thesis ? "the booklet's equation" : o.equation;
+  use.equation = o.thesis ? thesis_equation() : read_equation(o.equation);
+  use.extrapolate = o.extrapolate;
+  if (!o.mixer.empty()) use.mixer = MixerDimensions::read(o.mixer);
   const std::vector<BulkMaterial> materials = o.materials.read();
   if (materials.size() != 1)
     throw BadInput("--material", 0, "names more than one grain", "give one card, and the wall's with --wall");
-  s.material = materials[0];
-  if (!s.material.bulk_density || !s.material.bulk_cohesion)
-    throw BadInput(s.material.name, 0, "the card does not state bulkDensity and bulkCohesion", "add both to the card");
-  if (!o.wall.empty()) s.wall = BulkMaterial::read(named_in("materials", o.wall, ".par"));
-  return s;
-}
-
-Prediction checked(const PredictOptions& o, const Setting& s, double fill, double speed) {
-  Prediction p = s.at(fill, speed);
-  if (!p.outside.empty() && !o.extrapolate)
-    throw BadInput(s.source, 0,
-                   fmt::format("does not hold at speed {} and fill {}: {}", speed, fill, fmt::join(p.outside, ", ")),
-                   "stay inside, or add --extrapolate to be told all the same");
-  return p;
+  use.material = materials[0];
+  if (!use.material.bulk_density || !use.material.bulk_cohesion)
+    throw BadInput(use.material.name, 0, "the card does not state bulkDensity and bulkCohesion",
+                   "add both to the card");
+  if (!o.wall.empty()) use.wall = BulkMaterial::read(named_in("materials", o.wall, ".par"));
+  return use;
 }
 
 std::string flag(const Prediction& p) {
   return p.outside.empty() ? "" : fmt::format("  OUTSIDE THE FITTED RANGE: {}", fmt::join(p.outside, ", "));
-}
-
-// The fill at which `power(fill)` reaches the motor's power, within `range`; the upper limit of the range if it is not
-// reached there, nothing if it is exceeded everywhere. Power must grow with the fill.
-template <class Power>
-std::optional<double> largest_fill(Power power, double limit, const FittedRange& range) {
-  if (power(range.low) > limit) return std::nullopt;
-  if (power(range.high) <= limit) return range.high;
-  double low = range.low, high = range.high;
-  for (int i = 0; i < 100 && high - low > 1e-12 * high; ++i) {
-    const double middle = (low + high) / 2;
-    (power(middle) <= limit ? low : high) = middle;
-  }
-  return low;
 }
 
 struct Report {
@@ -98,14 +61,14 @@ struct Report {
   std::string text;
 };
 
-void add_powers(const PredictOptions& o, const Setting& s, Report& report) {
+void add_powers(const PredictOptions& o, const EquationUse& use, Report& report) {
   report.text += fmt::format("{:>8}{:>7}{:>11}{:>10}{:>10}{:>10}{:>11}{:>11}", "speed", "fill",
-                             number_name(s.equation.number), "power_W", "low95", "high95", "new_low95", "new_high95");
+                             number_name(use.equation.number), "power_W", "low95", "high95", "new_low95", "new_high95");
   if (o.mixing_time > 0) report.text += fmt::format("{:>12}{:>10}{:>10}", "energy_kJ", "low95", "high95");
   report.text += "\n";
   for (const double fill : o.fills) {
     for (const double speed : o.speeds) {
-      const Prediction p = checked(o, s, fill, speed);
+      const Prediction p = use.checked(fill, speed);
       json row = {{"speed", speed},
                   {"fill", fill},
                   {"number", p.number},
@@ -132,83 +95,39 @@ void add_powers(const PredictOptions& o, const Setting& s, Report& report) {
   }
 }
 
-void add_largest_fills(const PredictOptions& o, const Setting& s, Report& report) {
-  const auto& range = s.equation.group_range[0];
-  if (!range || range->high <= range->low)
-    throw BadInput(s.source, 0, "was fitted at one fill", "fit rows of several fills to ask for the largest");
+void add_largest_fills(const PredictOptions& o, const EquationUse& use, Report& report) {
   if (o.idle_power >= o.motor_power)
     throw BadInput("--idle-power", 0, "leaves nothing of the motor's power", "state less than --motor-power");
-  const double limit = o.motor_power - o.idle_power;
-  report.text += fmt::format("largest fill for a motor of {:g} W, {:g} W of it idling (fitted fills {:g} to {:g})\n",
-                             o.motor_power, o.idle_power, range->low, range->high);
   for (const double speed : o.speeds) {
-    checked(o, s, range->low, speed);
-    if (!(s.at(range->high, speed).power > s.at(range->low, speed).power))
-      throw BadInput(s.source, 0, "has a power that does not grow with the fill",
-                     "there is no largest fill to ask for");
-    const auto expected = largest_fill([&](double fill) { return s.at(fill, speed).power; }, limit, *range);
-    const auto safe = largest_fill([&](double fill) { return s.at(fill, speed).new_high95; }, limit, *range);
-    const auto in_words = [&](const std::optional<double>& fill) {
-      if (!fill) return fmt::format("below {:g}", range->low);
-      return *fill == range->high ? fmt::format("{:g} or more", *fill) : fmt::format("{:.4f}", *fill);
+    const LargestFill fill = largest_fill(use, speed, o.motor_power - o.idle_power);
+    if (!report.result.contains("largest_fill"))
+      report.text +=
+          fmt::format("largest fill for a motor of {:g} W, {:g} W of it idling (fitted fills {:g} to {:g})\n",
+                      o.motor_power, o.idle_power, fill.range.low, fill.range.high);
+    const auto in_words = [&](const std::optional<double>& limit) {
+      if (!limit) return fmt::format("below {:g}", fill.range.low);
+      return *limit == fill.range.high ? fmt::format("{:g} or more", *limit) : fmt::format("{:.4f}", *limit);
     };
     report.text += fmt::format("  speed {:g} 1/s: {} expected, {} with the power's upper 95 % limit\n", speed,
-                               in_words(expected), in_words(safe));
+                               in_words(fill.expected), in_words(fill.safe));
     report.result["largest_fill"].push_back({{"speed", speed},
                                              {"motor_power", o.motor_power},
                                              {"idle_power", o.idle_power},
-                                             {"expected", expected ? json(*expected) : json()},
-                                             {"safe", safe ? json(*safe) : json()},
-                                             {"range", {range->low, range->high}}});
+                                             {"expected", fill.expected ? json(*fill.expected) : json()},
+                                             {"safe", fill.safe ? json(*fill.safe) : json()},
+                                             {"range", {fill.range.low, fill.range.high}}});
   }
 }
 
-std::vector<Observation> observations(const PredictOptions& o, const Setting& s) {
-  std::vector<Observation> rows;
-  for (const double fill : o.fills) {
-    for (const double speed : o.speeds) {
-      const Prediction p = checked(o, s, fill, speed);
-      Observation row;
-      row.test = fmt::format("l{:.4g}_n{:.4g}", fill, speed);
-      row.role = std::count(o.check_fills.begin(), o.check_fills.end(), fill) > 0 ? Role::check : o.role;
-      row.apparatus = "mixer";
-      row.observable = "power";
-      // Six digits are far more than the equation is good for, and read better.
-      row.value = std::stod(fmt::format("{:.6g}", p.power));
-      row.u = std::stod(fmt::format("{:.3g}", p.u));
-      row.unit = "W";
-      row.speed = speed;
-      row.fill = fill;
-      row.moisture = o.moisture;
-      row.wall = s.wall ? s.wall->name : "";
-      row.material = s.material.name;
-      rows.push_back(row);
-    }
-  }
-  return rows;
-}
-
-// Beside TABLE.csv: TABLE.covariance.csv, the errors of one equation hang together.
-void write_covariance(const std::string& table, const std::vector<Observation>& rows) {
-  const Eigen::Index n = static_cast<Eigen::Index>(rows.size());
-  Eigen::VectorXd fill(n), speed(n);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    fill[i] = *rows[static_cast<std::size_t>(i)].fill;
-    speed[i] = *rows[static_cast<std::size_t>(i)].speed;
-  }
-  Eigen::MatrixXd correlation;
-  try {
-    correlation = equation_error_correlation(fill, speed);
-  } catch (const std::invalid_argument& error) {
-    throw BadInput("--covariance", 0, error.what(), "ask for a grid of --speeds and --fills");
-  }
-  std::string text = "test_a,observable_a,test_b,observable_b,covariance\n";
-  for (std::size_t i = 0; i < rows.size(); ++i)
-    for (std::size_t j = i + 1; j < rows.size(); ++j)
-      text +=
-          fmt::format("{},power,{},power,{:.6g}\n", rows[i].test, rows[j].test,
-                      correlation(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) * rows[i].u * rows[j].u);
-  write_whole_file(std::filesystem::path(table).replace_extension(".covariance.csv").string(), text);
+void write_rows(const PredictOptions& o, const EquationUse& use) {
+  const auto role = [&](double fill) {
+    return std::count(o.check_fills.begin(), o.check_fills.end(), fill) > 0 ? Role::check : o.role;
+  };
+  const std::vector<Observation> rows = predicted_rows(use, {o.fills, o.speeds, role, o.moisture});
+  if (o.covariance)
+    write_whole_file(std::filesystem::path(o.out).replace_extension(".covariance.csv").string(),
+                     predicted_covariances(rows));
+  write_observations(o.out, rows);
 }
 
 void predict_power(const PredictOptions& o) {
@@ -216,26 +135,20 @@ void predict_power(const PredictOptions& o) {
   if (o.fills.empty() && o.motor_power == 0)
     throw CLI::RequiredError("--fills, or --motor-power for the largest fill,");
   if (o.fills.empty() && !o.out.empty()) throw CLI::RequiredError("--fills for the table of --out");
-  const Setting s = setting_of(o);
-  const Equation& e = s.equation;
+  const EquationUse use = use_of(o);
 
   Report report;
   report.result["schema"] = 1;
-  report.result["equation"] = s.source;
-  report.result["provisional"] = e.provisional || s.material.provisional;
-  if (!o.fills.empty()) add_powers(o, s, report);
-  if (o.motor_power > 0) add_largest_fills(o, s, report);
-  if (e.provisional || s.material.provisional)
-    report.text += "note: provisional: a material card is not calibrated yet\n";
+  report.result["equation"] = use.source;
+  report.result["provisional"] = use.provisional();
+  if (!o.fills.empty()) add_powers(o, use, report);
+  if (o.motor_power > 0) add_largest_fills(o, use, report);
+  if (use.provisional()) report.text += "note: provisional: a material card is not calibrated yet\n";
   if (o.thesis)
     report.text += fmt::format(
         "note: u = {:.1f} % of the power, from the booklet's maximum error of 13.7 % (doc/theory/equation.md)\n",
         100 * thesis_relative_u());
-  if (!o.out.empty()) {
-    const std::vector<Observation> rows = observations(o, s);
-    if (o.covariance) write_covariance(o.out, rows);
-    write_observations(o.out, rows);
-  }
+  if (!o.out.empty()) write_rows(o, use);
   std::fputs((o.json ? report.result.dump(2) + "\n" : report.text).c_str(), stdout);
 }
 
