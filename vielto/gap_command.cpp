@@ -8,11 +8,8 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
-#include <functional>
 #include <map>
 #include <memory>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -23,13 +20,12 @@
 #include "core/rig_table.h"
 #include "core/seal.h"
 #include "gap/library/library_plan.h"
-#include "gap/library/sources.h"
+#include "gap/question/answer.h"
 #include "gap/question/confirm.h"
 #include "gap/question/next_question.h"
 #include "gap/question/question.h"
 #include "gap/question/sealed.h"
 #include "gap/question/simulated.h"
-#include "gap/verdict/points.h"
 #include "report/diagnosis_page.h"
 
 namespace vielto {
@@ -64,30 +60,14 @@ struct GapOptions {
   QuestionOptions question() const {
     return {files, table, only, without, reference, reference_only, transfer, emulator(), seed, draws};
   }
+  AnswerOptions answer() const { return {question(), sealed, candidate_file(), change_only}; }
   std::string candidate_file() const {
     return candidates.empty() ? (fs::path(files.completed().settings).parent_path() / "next_tests.toml").string()
                               : candidates;
   }
 };
 
-Threshold threshold_of(const GapOptions& o, const Question& q) {
-  return o.sealed.empty() ? q.threshold() : sealed_threshold(o.sealed, q);
-}
-
 const std::vector<const char*> kAnswerFiles = {"diagnosis.json", "diagnosis.html"};
-
-// JSON writes a number that is not finite as null, which a reader would take for "not known".
-void require_finite_numbers(const json& j, const fs::path& path, const std::string& place = "") {
-  if (j.is_number_float() && !std::isfinite(j.get<double>()))
-    throw std::runtime_error(fmt::format("{} is not written: its {} is not finite", path.string(), place));
-  if (j.is_structured())
-    for (const auto& [key, value] : j.items()) require_finite_numbers(value, path, place + "/" + key);
-}
-
-void write_json(const fs::path& path, const json& j) {
-  require_finite_numbers(j, path);
-  write_whole_file(path.string(), j.dump(2) + "\n");
-}
 
 fs::path make_out(const std::string& folder) {
   std::error_code error;
@@ -117,7 +97,7 @@ void run_isolability(const GapOptions& o) {
   const json j = isolability_json(q, i, q.threshold());
   if (!o.out.empty()) {
     const fs::path out = make_out(o.out);
-    write_json(out / "isolability.json", j);
+    write_answer_file((out / "isolability.json").string(), j);
     seal((out / "isolability.json").string());
     write_whole_file((out / "isolability.csv").string(), isolability_csv(i));
     write_whole_file((out / "isolability.svg").string(), isolability_svg(i));
@@ -139,19 +119,6 @@ std::string title_of(const GapOptions& o) {
   return "Gap between simulation and measurement: " + fs::path(o.table).filename().string();
 }
 
-Diagnosis diagnosis_of(const GapOptions& o, const Question& q, const Isolability& i) {
-  Diagnosis d = diagnose(q.model, threshold_of(o, q), q.inputs.settings);
-  d.of_a_change = q.reference.has_value();
-  if (d.threshold.draws < q.inputs.settings.draws)
-    d.notes.push_back(fmt::format("the threshold rests on {} draws, not on the settings' {}", d.threshold.draws,
-                                  q.inputs.settings.draws));
-  if (d.check_rows == 0) d.notes.push_back("the table has no check rows: how far the gap shrinks cannot be proved");
-  d.predicted = predicted_shrink(q.model, d, i);
-  if (d.verdict == Verdict::ambiguous || d.verdict == Verdict::unknown)
-    d.next_tests = next_tests(q, d, o.candidate_file(), d.notes);
-  return d;
-}
-
 json provenance_of(const GapOptions& o, const Question& q) {
   json p = q.provenance();
   p["options"]["sealed"] = !o.sealed.empty();
@@ -160,34 +127,11 @@ json provenance_of(const GapOptions& o, const Question& q) {
   return p;
 }
 
-// The other answer: not what has changed, but why the simulation is off.
-json without_reference(const GapOptions& o) {
-  QuestionOptions options = o.question();
-  options.reference.clear();
-  options.reference_only.clear();
-  const Question q(options);
-  const Diagnosis d = diagnose(q.model, q.threshold(), q.inputs.settings);
-  json j = {{"verdict", text_of(d.verdict)}, {"named", d.named}, {"group", d.group}};
-  j["probabilities"] = json::object();
-  for (const ModelEvidence& m : d.models) j["probabilities"][m.name()] = m.probability;
-  j["sentence"] = verdict_sentence(d);
-  return j;
-}
-
 void write_answer(const GapOptions& o, const Question& q, const Diagnosis& d, const json& provenance) {
-  json j = diagnosis_json(d, provenance);
-  // a long group would bury the page: its two likeliest members
-  std::vector<std::string> shown = d.verdict == Verdict::ambiguous ? d.group : d.named;
-  shown.resize(std::min<std::size_t>(shown.size(), 2));
-  j["sources"] = sources_json(q.inputs.library, shown);
-  add_points(j, points_of(q.model, d));
-  if (q.reference) {
-    j["reference"] = q.reference_json();
-    if (!o.change_only) j["why_it_is_off"] = without_reference(o);
-  }
+  const json j = answer_json(o.answer(), q, d, provenance);
   const fs::path out = make_out(o.out);
   const std::string page = diagnosis_page(j, title_of(o));
-  write_json(out / "diagnosis.json", j);
+  write_answer_file((out / "diagnosis.json").string(), j);
   write_whole_file((out / "diagnosis.html").string(), page);
   fmt::print("{}\n", verdict_sentence(d));
   if (j.contains("why_it_is_off"))
@@ -199,13 +143,7 @@ void run_diagnose(const GapOptions& o) {
   check_out(o.out, kAnswerFiles);
   const Question q(o.question());
   const Isolability i = isolability(q.before_data(), q.inputs.settings);
-  write_answer(o, q, diagnosis_of(o, q, i), provenance_of(o, q));
-}
-
-std::string version_of_first_run(const Plan& plan) {
-  const fs::path description = fs::path(plan.runs.front().run) / "run.json";
-  if (!fs::exists(description)) return "";
-  return read_json(description.string()).value(json::json_pointer("/versions/liggghts"), std::string());
+  write_answer(o, q, answer(o.answer(), q, i), provenance_of(o, q));
 }
 
 void run_confirm(const GapOptions& o) {
@@ -216,7 +154,7 @@ void run_confirm(const GapOptions& o) {
     throw BadInput(o.table, 0, "holds no row of role check that a rig can simulate",
                    fmt::format("mark held-out tests of {}: the shrink is measured on them", rig_names()));
   const Isolability i = isolability(q.before_data(), q.inputs.settings);
-  Diagnosis d = diagnosis_of(o, q, i);
+  Diagnosis d = answer(o.answer(), q, i);
   json provenance = provenance_of(o, q);
   if (d.verdict == Verdict::no_gap) {
     if (o.run)
@@ -227,13 +165,7 @@ void run_confirm(const GapOptions& o) {
   }
   const std::string runs = o.runs.empty() ? (fs::path(o.out) / "runs").string() : o.runs;
   const Plan plan = plan_confirmation({o.root, runs, o.seeds, o.vars}, q, d, i, d.notes);
-  for (const PlannedRun& run : plan.runs) {
-    // seen from the rig's folder, so that the answer speaks of no machine
-    std::vector<std::string> words = run.command;
-    const std::string place = fs::relative(run.run, run.folder).string();
-    std::replace(words.begin(), words.end(), run.run, place);
-    provenance["commands"].push_back(fmt::format("{}", fmt::join(words, " ")));
-  }
+  provenance["commands"] = stated_commands(plan);
   if (!o.run) {
     for (const PlannedRun& run : plan.runs) fmt::print("{}\n", command_line(run));
     for (const std::string& note : d.notes) fmt::print(stderr, "note: {}\n", note);
@@ -244,13 +176,13 @@ void run_confirm(const GapOptions& o) {
   write_answer(o, q, d, provenance);
   run_plan(plan, o.jobs);
   d.shrink = measured_shrink(plan, q);
-  provenance["liggghts"] = version_of_first_run(plan);
+  provenance["liggghts"] = liggghts_version(plan);
   write_answer(o, q, d, provenance);
 }
 
 void run_next(const GapOptions& o) {
   const Question q(o.question());
-  Diagnosis d = diagnose(q.model, threshold_of(o, q), q.inputs.settings);
+  Diagnosis d = diagnose(q.model, threshold_of(o.answer(), q), q.inputs.settings);
   d.of_a_change = q.reference.has_value();
   d.next_tests = next_tests(q, d, o.candidate_file(), d.notes);
   fmt::print("{}\n{:<22}{:>7}{:>10}{:>10}{:>12}  separates\n", verdict_sentence(d), "test", "hours", "sd now",

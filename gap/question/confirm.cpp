@@ -352,6 +352,22 @@ std::string command_line(const PlannedRun& run) {
                      run.post.empty() ? "" : " && " + quoted(run.post));
 }
 
+std::vector<std::string> stated_commands(const Plan& plan) {
+  std::vector<std::string> commands;
+  for (const PlannedRun& run : plan.runs) {
+    std::vector<std::string> words = run.command;
+    std::replace(words.begin(), words.end(), run.run, fs::relative(run.run, run.folder).string());
+    commands.push_back(fmt::format("{}", fmt::join(words, " ")));
+  }
+  return commands;
+}
+
+std::string liggghts_version(const Plan& plan) {
+  const fs::path description = fs::path(plan.runs.front().run) / "run.json";
+  if (!fs::exists(description)) return "";
+  return read_json(description.string()).value(nlohmann::json::json_pointer("/versions/liggghts"), std::string());
+}
+
 void refuse_other_runs(const Plan& plan) {
   std::map<std::string, std::string> hash_of_path;
   for (const PlannedRun& run : plan.runs)

@@ -67,6 +67,10 @@ std::string file_name_of(const std::string& test);
 
 // A command line for a shell, every word quoted that needs it.
 std::string command_line(const PlannedRun& run);
+// The commands as an answer states them: folders as seen from the rig's, so that it speaks of no machine.
+std::vector<std::string> stated_commands(const Plan& plan);
+// As the first run states it; empty if it does not.
+std::string liggghts_version(const Plan& plan);
 
 // Errors: BadInput naming a run folder that is there and was made by another command or from other files.
 void refuse_other_runs(const Plan& plan);
