@@ -5,7 +5,7 @@ import re
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-sys.path.insert(0, str(ROOT / "doc" / "_ext"))
+sys.path[:0] = [str(ROOT), str(ROOT / "doc" / "_ext")]
 
 project = "ViElTo for LIGGGHTS"
 author = "see AUTHORS"

@@ -6,13 +6,13 @@ Columns: question; clicks, the words of the links or, on the page itself, of the
 that must stand there. After a build every click is looked up in the pages that were made; what is not found is a warning,
 and scripts/docs makes that an error. Of a link in the sidebar the words are the page's title.
 """
-import csv
 import html.parser
 import pathlib
 import re
 import urllib.parse
 
 from sphinx.util import logging
+from tools import tables
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 TABLES = [ROOT / "doc/develop/questions.csv", ROOT / "tests/tools/unseen_questions.csv"]
@@ -71,11 +71,10 @@ def look_up(app, exception):
         return
     root = pathlib.Path(app.outdir).resolve()
     for table in TABLES:
-        with open(table, newline="", encoding="utf-8") as file:
-            for row in csv.DictReader(file):
-                fault = fault_of(root, row["clicks"].split(" > "), row["answer"])
-                if fault:
-                    log.warning(f"{table.name}: {row['question']}: {fault}")
+        for row in tables.read(table, ["question", "answer", "clicks"], "bring it back"):
+            fault = fault_of(root, row["clicks"].split(" > "), row["answer"])
+            if fault:
+                log.warning(f"{table.name}: {row['question']}: {fault}")
 
 
 def setup(app):

@@ -31,8 +31,6 @@ Names in braces are keys (`a.b` one inside another) of the column's file, in a r
 cell whose key is not there or null is a dash. Rows may also stand in the directive's body, a line each. Each of `scores`
 is a row of a score file: how many cases, the score, its 95 % interval.
 """
-import csv
-import json
 import pathlib
 import re
 import statistics
@@ -40,6 +38,7 @@ import string
 
 from docutils import nodes
 from docutils.parsers.rst import Directive, directives
+from tools import files, tables
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 
@@ -59,16 +58,15 @@ STATISTICS = {
 
 def rows_of(path, key=None):
     """The rows of a CSV table, or of the list `key` of a JSON file with `a.b` for nested keys, as words."""
-    with open(path, newline="", encoding="utf-8") as file:
-        if not key:
-            return list(csv.DictReader(file))
+    if not key:
+        return tables.read(path, [], "name a table of the repository", may_be_empty=True)
 
-        def flat(value, name=""):
-            if not isinstance(value, dict):
-                return {name: "" if value is None else str(value)}
-            return {k: v for n, inner in value.items() for k, v in flat(inner, f"{name}.{n}".strip(".")).items()}
+    def flat(value, name=""):
+        if not isinstance(value, dict):
+            return {name: "" if value is None else str(value)}
+        return {k: v for n, inner in value.items() for k, v in flat(inner, f"{name}.{n}".strip(".")).items()}
 
-        return [flat(row) for row in json.load(file)[key]]
+    return [flat(row) for row in files.read_json(path, "name a result of the repository")[key]]
 
 
 def matching(rows, where):
@@ -158,7 +156,7 @@ class JsonValues(Directive):
         for _, path in columns:
             self.state.document.settings.env.note_dependency(str(ROOT / path))
             try:
-                contents.append(Values(json.loads((ROOT / path).read_text(encoding="utf-8"))))
+                contents.append(Values(files.read_json(ROOT / path, "name a result of the repository")))
             except (OSError, ValueError) as fault:
                 raise self.error(f"{path}: {fault!r}") from fault
         body = []

@@ -3,11 +3,16 @@
 """scripts/library shares: sectors over their sum, of baseline runs only; and the committed table is what it makes."""
 import csv
 import pathlib
+import re
 import subprocess
+import sys
 import tempfile
 import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT))
+from tools.library import shares as shares_module  # noqa: E402
+
 OBSERVATIONS = "test,role,apparatus,observable,value,u,unit,speed,fill,wall\n"
 SECTORS = [f"{a} to {a + 60} deg" for a in range(-180, 180, 60)]
 
@@ -34,6 +39,13 @@ class Shares(unittest.TestCase):
             + "".join(f"{t},phase,{s},{x}\n" for t in "ab" for s, x in zip(SECTORS, sectors))
             + "a,part,shaft,7\n"
         )
+
+    # the sectors that have observables, as the programs know them (begin: 60 k - 180)
+    def test_sectors_are_those_of_the_programs(self):
+        header = (ROOT / "postproc/core/paddle_sectors.h").read_text()
+        begins = {name: 60 * int(k) - 180 for name, k in re.findall(r'"paddle_share_(\w+)", (\d)', header)}
+        self.assertEqual(shares_module.SECTORS, {n: f"{a} to {a + 60} deg" for n, a in begins.items()})
+        self.assertEqual(len(begins), 3)
 
     # 1, 2, 3, 4, 5, 6 sum to 21: the sectors from -120, -60 and 60 hold 2, 3 and 5
     def test_sectors_of_the_baseline_over_their_sum(self):

@@ -9,7 +9,6 @@ scatter of runs understated by 3. An answer that crashes or holds a number that 
 stands in the table.
 """
 import argparse
-import csv
 import json
 import pathlib
 import re
@@ -105,10 +104,9 @@ class Case:
             if seen[kind] % 2:
                 gone.add(row["test"])
         for path in half.glob("*.csv"):
-            with open(path, newline="", encoding="utf-8") as file:
-                header, *rows = csv.reader(file)
-            if header and header[0] == "test":
-                tables.write(path, header, [dict(zip(header, row)) for row in rows if row[0] not in gone])
+            rows = tables.read(path, [], "take a library", may_be_empty=True)
+            if rows.header[:1] == ["test"]:
+                tables.write(path, rows.header, [row for row in rows if row["test"] not in gone])
         return ["--library", half, "--effects", self.here / "effects", "--settings", self.here / "diagnosis.toml"]
 
     def answer(self, files=None, rows=None, shared=False, more=()):

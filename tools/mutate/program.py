@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The command scripts/mutate."""
 import argparse
-import csv
 import os
 import pathlib
 import shlex
@@ -9,7 +8,7 @@ import shutil
 import subprocess
 import time
 
-from tools import ROOT, command_line, mutate
+from tools import ROOT, command_line, mutate, tables
 from tools.errors import BadInput, RunFailed
 
 HERE = pathlib.Path(__file__).resolve().parent
@@ -48,8 +47,8 @@ def work(options):
         if source not in TESTS:
             raise BadInput(f"{source}: no tests are named for it; take one of {', '.join(TESTS)}")
     subprocess.run([ROOT / "scripts/install-packages", "test", "mutate"], check=True)
-    with open(EQUIVALENT, encoding="utf-8", newline="") as file:
-        equivalent = {(r["source"], r["text"], r["change"], int(r["nth"])) for r in csv.DictReader(file)}
+    table = tables.read(EQUIVALENT, ["source", "text", "change", "nth"], "bring it back")
+    equivalent = {(r["source"], r["text"], r["change"], int(r["nth"])) for r in table}
     left = 0
     for source in options.sources or TESTS:
         left += mutate_source(source, options, {tuple(key) for of, *key in equivalent if of == source})
