@@ -1,26 +1,23 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The commands of the program `vielto`. Each function adds one subcommand with its options and callback;
-// a new command costs one NAME_command.cpp, one declaration here and one line in main.cpp.
+// The commands of the program `vielto`: each function adds one subcommand with its options and callback. A new command
+// costs NAME_command.cpp and its name in CMakeLists.txt, a new import import_NAME_command.cpp and its name there.
 #pragma once
 
 #include <CLI/CLI.hpp>
 
+#include "command_list.h"
+
 namespace vielto {
 
-void add_geometry_command(CLI::App& app);
-void add_post_command(CLI::App& app);
-void add_fit_command(CLI::App& app);
-void add_predict_command(CLI::App& app);
-void add_compare_command(CLI::App& app);
-void add_gap_command(CLI::App& app);
-void add_import_command(CLI::App& app);
-void add_import_logger(CLI::App& import);
-void add_import_surface(CLI::App& import);
-void add_report_command(CLI::App& app);
-void add_rigs_command(CLI::App& app);
+#define COMMAND(name) void add_##name##_command(CLI::App& app);
+VIELTO_COMMANDS
+#undef COMMAND
+
+#define IMPORT(name) void add_import_##name(CLI::App& import);
+VIELTO_IMPORTS
+#undef IMPORT
 
 // --rigs FILE of a command that reads observation tables or makes runs.
 void add_rigs_option(CLI::App* command);
-void add_copy_command(CLI::App& app);
 
 }  // namespace vielto

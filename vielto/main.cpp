@@ -10,16 +10,9 @@ int main(int argc, char** argv) {
   CLI::App app{"vielto - mixing power of a granular mixer: geometry, records, numbers, regression, gap"};
   app.require_subcommand(1);
   app.set_version_flag("--version", "vielto " VIELTO_VERSION);
-  vielto::add_geometry_command(app);
-  vielto::add_post_command(app);
-  vielto::add_fit_command(app);
-  vielto::add_predict_command(app);
-  vielto::add_compare_command(app);
-  vielto::add_gap_command(app);
-  vielto::add_import_command(app);
-  vielto::add_report_command(app);
-  vielto::add_rigs_command(app);
-  vielto::add_copy_command(app);
+#define COMMAND(name) vielto::add_##name##_command(app);
+  VIELTO_COMMANDS
+#undef COMMAND
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
