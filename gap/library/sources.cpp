@@ -13,6 +13,7 @@
 
 #include "core/bad_input.h"
 #include "core/condition.h"
+#include "core/mixing_numbers.h"
 #include "core/paddle_sectors.h"
 #include "gap/library/columns.h"
 
@@ -98,7 +99,7 @@ std::string sources_of_run(const std::string& test, const nlohmann::json& power,
   }
   if (power.contains("losses") && power["losses"].is_object())
     for (const auto& [loss, value] : power["losses"].items())
-      add("loss", loss, value["power_W"].get<double>() / (2 * std::acos(-1) * power["speed"].get<double>()));
+      add("loss", loss, value["power_W"].get<double>() / shaft_power(1, power["speed"].get<double>()));
   return rows;
 }
 

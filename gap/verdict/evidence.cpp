@@ -9,6 +9,7 @@
 #include <numeric>
 
 #include "core/bad_input.h"
+#include "core/pi.h"
 
 namespace vielto::gap {
 namespace {
@@ -52,7 +53,7 @@ VectorXd log_densities(const MatrixXd& deviations, const MatrixXd& covariance) {
   const MatrixXd whitened = factor.matrixL().solve(deviations);
   const double log_root = MatrixXd(factor.matrixL()).diagonal().array().log().sum();
   return (-0.5 * whitened.colwise().squaredNorm().transpose().array() - log_root -
-          0.5 * static_cast<double>(covariance.rows()) * std::log(2 * M_PI))
+          0.5 * static_cast<double>(covariance.rows()) * std::log(2 * kPi))
       .matrix();
 }
 

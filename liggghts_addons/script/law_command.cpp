@@ -109,7 +109,7 @@ const Law& LawCommand::chosen() {
   const char* const name = variable("law");
   const Law* const law = find_law(name ? name : "");
   if (!law) stop(std::string("vielto: law is '") + (name ? name : "") + "'; give " + law_names() + " with -var law");
-  return *law;
+  return *law;  // cppcheck-suppress nullPointerRedundantCheck ; stop() does not return
 }
 
 // Of all laws: a parameter of another law than the chosen one is known, and refused as such.

@@ -13,9 +13,10 @@
 
 #include <cmath>
 
+#include "core/pi.h"
+
 namespace vielto {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kGravity = 9.81;  // m/s2
 
 // The fitted equation; every use takes its numbers from here.

@@ -13,9 +13,9 @@
 #include <string>
 #include <vector>
 
-namespace vielto {
+#include "core/pi.h"
 
-constexpr double kPi = 3.14159265358979323846;
+namespace vielto {
 
 using Point = Eigen::Vector3d;
 using Face = std::vector<Point>;
