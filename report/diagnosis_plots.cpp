@@ -10,17 +10,13 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "core/condition.h"
+
 namespace vielto::gap {
 namespace {
 
 using nlohmann::json;
 
-constexpr std::array<std::pair<const char*, const char*>, 6> kConditionUnits = {{{"speed", "1/s"},
-                                                                                 {"fill", ""},
-                                                                                 {"moisture", ""},
-                                                                                 {"normal_stress", "Pa"},
-                                                                                 {"shear_velocity", "m/s"},
-                                                                                 {"tilt", "deg"}}};
 constexpr std::size_t kFewestForALine = 3;
 constexpr int kMeasuredColour = 6, kBeforeColour = 1, kAfterColour = 2, kRunBeforeColour = 5, kRunAfterColour = 3;
 
@@ -77,8 +73,8 @@ std::set<double> values_of(const std::vector<json>& points, const std::string& c
 // The conditions that differ among the points, the one with the most values first.
 std::vector<std::string> varied(const std::vector<json>& points, std::size_t at_least) {
   std::vector<std::string> names;
-  for (const auto& [name, unit] : kConditionUnits)
-    if (values_of(points, name).size() >= at_least) names.push_back(name);
+  for (const NamedCondition& c : kConditions)
+    if (values_of(points, c.name).size() >= at_least) names.emplace_back(c.name);
   std::stable_sort(names.begin(), names.end(), [&](const std::string& a, const std::string& b) {
     return values_of(points, a).size() > values_of(points, b).size();
   });
@@ -86,8 +82,8 @@ std::vector<std::string> varied(const std::vector<json>& points, std::size_t at_
 }
 
 std::string unit_of(const std::string& condition) {
-  for (const auto& [name, unit] : kConditionUnits)
-    if (condition == name) return unit;
+  for (const NamedCondition& c : kConditions)
+    if (condition == c.name) return c.unit == std::string("1") ? "" : c.unit;
   return "";
 }
 

@@ -57,8 +57,9 @@ std::vector<CandidateTest> read_candidate_tests(const std::string& path) {
   for (const toml::node& node : *list) {
     if (!node.is_table()) file.refuse("test", "is no list of tests", "write [[test]]");
     const TomlTable t(path, *node.as_table());
-    t.only({"name", "apparatus", "how", "hours", "row", "speed", "fill", "moisture", "normal_stress", "shear_velocity",
-            "tilt"});
+    toml::table beside = t.raw();
+    for (const NamedCondition& c : kConditions) beside.erase(c.name);
+    TomlTable(path, beside).only({"name", "apparatus", "how", "hours", "row"});
     CandidateTest test;
     test.name = t.text("name");
     test.apparatus = t.text("apparatus");

@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "core/bad_input.h"
+#include "core/condition.h"
 #include "core/csv.h"
 #include "core/statistics.h"
 #include "equation/weights.h"
@@ -16,26 +17,23 @@
 namespace vielto {
 namespace {
 
-struct NumberColumn {
-  const char* name;
-  std::optional<double> Observation::*member;
-};
-constexpr NumberColumn kNumbers[] = {{"speed", &Observation::speed},
-                                     {"fill", &Observation::fill},
-                                     {"moisture", &Observation::moisture},
-                                     {"normal_stress", &Observation::normal_stress},
-                                     {"shear_velocity", &Observation::shear_velocity},
-                                     {"tilt", &Observation::tilt}};
 struct NameColumn {
   const char* name;
   std::string Observation::*member;
 };
 constexpr NameColumn kNames[] = {{"wall", &Observation::wall}, {"material", &Observation::material}};
 
+std::vector<std::string> condition_columns() {
+  std::vector<std::string> names;
+  for (const NamedCondition& c : kConditions) names.emplace_back(c.name);
+  for (const NameColumn& c : kNames) names.emplace_back(c.name);
+  return names;
+}
+
 // "speed 0.48 fill 0.1 material hulled_millet": the stated conditions.
 std::string conditions(const Observation& row, const std::set<std::string>& ignored) {
   std::string text;
-  for (const NumberColumn& c : kNumbers)
+  for (const NamedCondition& c : kConditions)
     if (ignored.count(c.name) == 0 && row.*c.member) text += fmt::format(" {} {:.6g}", c.name, *(row.*c.member));
   for (const NameColumn& c : kNames)
     if (ignored.count(c.name) == 0 && !(row.*c.member).empty()) text += fmt::format(" {} {}", c.name, row.*c.member);
@@ -128,10 +126,9 @@ std::vector<GapSummary> summarise(const std::vector<ComparedPair>& pairs) {
 Comparison compare(const ReducedTable& a, const ReducedTable& b, const std::set<std::string>& ignored) {
   for (const std::string& name : ignored) {
     const auto is = [&](const auto& column) { return name == column.name; };
-    if (std::none_of(std::begin(kNumbers), std::end(kNumbers), is) &&
-        std::none_of(std::begin(kNames), std::end(kNames), is))
+    if (!condition_member(name) && std::none_of(std::begin(kNames), std::end(kNames), is))
       throw BadInput("--ignore", 0, fmt::format("'{}' is no condition", name),
-                     "choose from speed, fill, moisture, normal_stress, shear_velocity, tilt, wall, material");
+                     fmt::format("choose from {}", fmt::join(condition_columns(), ", ")));
   }
   const auto groups_a = by_conditions(a, ignored), groups_b = by_conditions(b, ignored);
   std::vector<Match> matches;
@@ -183,11 +180,11 @@ Comparison compare(const ReducedTable& a, const ReducedTable& b, const std::set<
 
 std::string comparison_csv(const Comparison& comparison) {
   std::string text =
-      "apparatus,observable,unit,speed,fill,moisture,normal_stress,shear_velocity,tilt,wall,material,"
-      "test_a,rows_a,value_a,u_a,test_b,rows_b,value_b,u_b,relative_gap,z\n";
+      fmt::format("apparatus,observable,unit,{},test_a,rows_a,value_a,u_a,test_b,rows_b,value_b,u_b,relative_gap,z\n",
+                  fmt::join(condition_columns(), ","));
   for (const ComparedPair& p : comparison.pairs) {
     text += fmt::format("{},{},{}", p.a.apparatus, p.a.observable, p.a.unit);
-    for (const NumberColumn& c : kNumbers) text += "," + (p.a.*c.member ? number_text(*(p.a.*c.member)) : "");
+    for (const NamedCondition& c : kConditions) text += "," + (p.a.*c.member ? number_text(*(p.a.*c.member)) : "");
     text += fmt::format(",{},{},{},{},{},{},{},{},{},{},{},{}\n", p.a.wall, p.a.material, p.a.test, p.rows_a,
                         number_text(p.a.value), number_text(p.a.u), p.b.test, p.rows_b, number_text(p.b.value),
                         number_text(p.b.u), number_text(p.gap), number_text(p.z));

@@ -3,10 +3,18 @@
 import math
 import os
 import pathlib
+import re
 import subprocess
+import sys
 import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT))
+from tools.library.responses import CONDITIONS  # noqa: E402
+
+# the programs' own list, in its order
+stated = re.findall(r'\{"(\w+)", &Observation::', (ROOT / "postproc/core/condition.h").read_text())
+assert list(CONDITIONS) == stated, stated
 
 
 def responses(*words):
