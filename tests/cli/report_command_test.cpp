@@ -1,29 +1,15 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// `vielto report` through its command line: what the page and the files beside it hold, what is refused, and what a
-// browser makes of the page.
-#include <gtest/gtest.h>
-
+// `vielto report` through its command line: what the page and the files beside it hold, what is refused.
+// What a browser makes of the page: report_browser_test.cpp.
 #include <algorithm>
-#include <cmath>
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
-#include <map>
-#include <nlohmann/json.hpp>
+#include <array>
 #include <sstream>
 
-#include "tests/cli/command_test.h"
-#include "tests/rigs/synthetic_record.h"
+#include "tests/cli/report_folder.h"
 
 namespace {
 
-namespace fs = std::filesystem;
-using nlohmann::json;
-
-using vielto_test::content;
-
-const fs::path kSource = VIELTO_SOURCE_DIR;
-const std::string kVielto = "'" VIELTO_BIN_DIR "/vielto'";
+using namespace vielto_test;
 
 std::size_t count(const std::string& text, const std::string& part) {
   std::size_t n = 0;
@@ -43,78 +29,6 @@ std::vector<std::array<double, 2>> series(const fs::path& path, const std::strin
     }
   return points;
 }
-
-class Report : public vielto_test::CommandTest {
- protected:
-  int run(const std::string& command) { return CommandTest::run("env -u DISPLAY " + command); }
-  int report(const std::string& arguments) { return run(kVielto + " report " + arguments); }
-
-  // A finished run: its record, what `vielto post` makes of it, and what `liggghts` writes about itself.
-  void make_run(const std::string& name, double speed = 1.21) {
-    SyntheticRecord record;
-    record.noise = 0.02;
-    record.speed = speed;
-    record.write(folder_ / name);
-    ASSERT_EQ(run(kVielto + " post " + name), 0) << err_;
-    write(
-        name + "/run.json",
-        R"({"status": "complete", "command": "liggghts -in in.mixer -var seed 7", "parameters": {"seed": "7", "fill": "0.15"},
-      "versions": {"vielto": "0.1.0"}, "hashes": {"mixer.par": "499b6742"}})");
-  }
-  void make_fit(const std::string& name) {
-    fs::create_directories(folder_ / name);
-    fs::copy_file(kSource / "cases/mixer/results/thesis_equation.observations.csv", folder_ / name / "grid.csv");
-    ASSERT_EQ(run(kVielto + " fit " + name + "/grid.csv --bulk-density 825 --bulk-cohesion 6175 --out " + name +
-                  "/equation.json"),
-              0)
-        << err_;
-  }
-  void make_shear_box(const std::string& name) {
-    std::string rows = "# schema=1\n# rig=shearbox\ntime_s,displacement_m,shear_force_N,plate_force_N\n";
-    for (int i = 1; i <= 40; ++i) {
-      const double t = 0.01 * i;
-      rows += std::to_string(t) + "," + std::to_string(0.05 * t) + "," + std::to_string(30 * (1 - std::exp(-10 * t))) +
-              ",70.6\n";
-    }
-    write(name + "/shear.csv", rows);
-    write(name + "/post/shear.json",
-          R"({"schema": 1, "shear_stress_peak_Pa": 8333.3, "notes": ["</script><script>alert(1)</script>"]})");
-  }
-
-  void make_diagnosis(const std::string& name, bool with_points = true) {
-    json d = json::parse(content(kSource / "findings/wheat_walls/diagnosis.json"));
-    d["verdict"] = "named";
-    d["named"] = {"drive_loss"};
-    d["group"] = json::array();
-    d["sentence"] = "There is a gap, explained by drive_loss.";
-    d["next_test"]["name"] = "weigh_the_load";
-    d["reference"] = {{"state", "as delivered"}};
-    d.erase("points");
-    d["shrink"]["runs"] = {{{"test", "t_0.10_3"},
-                            {"observable", "power"},
-                            {"before", {{"value", 3.9}, {"u", 0.1}}},
-                            {"after", {{"value", 3.1}, {"u", 0.1}}}}};
-    const auto band = [](double value) {
-      return json{{"value", value}, {"low95", 0.9 * value}, {"high95", 1.1 * value}};
-    };
-    if (with_points)
-      for (const double fill : {0.1, 0.15, 0.2, 0.25})
-        for (const double speed : {1, 2, 3, 4}) {
-          const double measured = 10 * fill * speed;
-          d["points"].push_back({{"test", "t_" + std::to_string(fill).substr(0, 4) + "_" + std::to_string(int(speed))},
-                                 {"role", "fit"},
-                                 {"apparatus", "mixer"},
-                                 {"observable", "power"},
-                                 {"unit", "W"},
-                                 {"speed", speed},
-                                 {"fill", fill},
-                                 {"measured", band(measured)},
-                                 {"before", band(measured * (1 + 0.1 * speed))},
-                                 {"after", band(measured)}});
-        }
-    write(name + "/diagnosis.json", d.dump());
-  }
-};
 
 // Expected from the generator's own numbers, not from the program: 4 paddles of 0.15 N m, stems 0.1 and shaft 0.05 in a
 // slice of 4 of 22 paddles; power 2 pi n T.
@@ -315,65 +229,6 @@ TEST_F(Report, WithoutThePlottingLibraryAsksForIt) {
   EXPECT_NE(content(folder_ / "run/report/report.html").find("The plots were left out"), std::string::npos);
   EXPECT_TRUE(fs::exists(folder_ / "run/report/parity.csv"));
   EXPECT_FALSE(fs::exists(folder_ / "run/report/parity.svg"));
-}
-
-class ReportInABrowser : public Report {
- protected:
-  void SetUp() override {
-    Report::SetUp();
-    if (std::system("chromium --version >/dev/null 2>&1 && chromedriver --version >/dev/null 2>&1") != 0)
-      GTEST_SKIP() << "needs the packages of scripts/packages/browser.txt";
-  }
-  json look(const std::string& page) {
-    EXPECT_EQ(run("/usr/bin/python3 '" + (kSource / "tests/cli/report_browser.py").string() + "' " + page + " shots"),
-              0)
-        << err_;
-    return json::parse(content(folder_ / "out.txt"), nullptr, false);
-  }
-};
-
-TEST_F(ReportInABrowser, OpensOfflineOnPhoneAndDesktopLightAndDark) {
-  make_run("all/run");
-  make_fit("all");
-  make_shear_box("all");
-  make_diagnosis("all");
-  ASSERT_EQ(report("all"), 0) << err_;
-  const json seen = look("all/report/report.html");
-  ASSERT_EQ(seen.size(), 4u) << seen.dump();
-  for (const auto& [window, page] : seen.items()) {
-    EXPECT_TRUE(page["console"].empty()) << window << page["console"];
-    EXPECT_TRUE(page["requests"].empty()) << window << page["requests"];
-    EXPECT_EQ(page["page_loads"], 1) << window;  // the log of requests does record
-    EXPECT_LE(page["opened"]["width"], page["window"]) << window;
-    EXPECT_TRUE(page["opened"]["outside"].empty()) << window << page["opened"]["outside"];
-    EXPECT_EQ(page["broken_pictures"], 0) << window;
-    std::map<std::string, json> plots;
-    for (const json& plot : page["opened"]["plots"]) plots[plot["name"]] = plot;
-    for (const char* name : {"power_over_speed", "parity", "run_torque_over_time", "run_torque_over_phase",
-                             "equation_parity", "equation_power_over_fill", "equation_residuals_N_C", "shear_csv_N",
-                             "diagnosis_mixer_power_over_speed_fill_0_2", "diagnosis_mixer_power_gap_after"}) {
-      ASSERT_TRUE(plots.count(name)) << name;
-      EXPECT_GT(plots[name]["marks"], 8) << window << " " << name;
-      EXPECT_GT(plots[name]["words"].size(), 6u) << window << " " << name;
-    }
-    const json& words = plots["parity"]["words"];
-    EXPECT_NE(std::find(words.begin(), words.end(), "published equation / W"), words.end()) << window;
-  }
-  EXPECT_NE(seen["390 light"]["background"], seen["390 dark"]["background"]);
-}
-
-// The watch itself: a page that breaks every rule is seen to.
-TEST_F(ReportInABrowser, ABadPageWouldBeSeen) {
-  write("bad.html",
-        "<!DOCTYPE html><title>bad</title><link rel=icon href='data:,'><main><div style='width:2000px'>wide</div>"
-        "<img src='http://127.0.0.1:9/x.png'></main><script>console.error('oh');</script>");
-  const json seen = look("bad.html");
-  for (const auto& [window, page] : seen.items()) {
-    EXPECT_GE(page["console"].size(), 1u) << window;
-    EXPECT_EQ(page["requests"].size(), 1u) << window << page["requests"];
-    EXPECT_FALSE(page["outside"].empty()) << window;
-    EXPECT_EQ(page["broken_pictures"], 1) << window;
-  }
 }
 
 }  // namespace
