@@ -37,7 +37,7 @@ class FixViEltoMoveMesh : public FixMoveMesh {
 
   const vielto::PackedLaw* packed_;
   bool quick_ = false;
-  double dt_ = 0, quaternion_[4], spin_[3];  // of a step of dt_; rad/s
+  double dt_ = 0, quaternion_[4] = {}, spin_[3] = {};  // of a step of dt_; rad/s
   Corners* velocities_ = nullptr;
   std::vector<Corners*> edges_;  // three vectors a triangle, and one
   std::vector<VectorContainer<double, 3>*> normals_;
