@@ -10,46 +10,16 @@
 #include <vtkPolyData.h>
 
 #include <cmath>
-#include <map>
 
-#include "core/bad_input.h"
-#include "rigs/rig_code.h"
+#include "rig_meshes.h"
 
-using namespace vielto;
+using namespace vielto_test;
 
 namespace {
 
-using Settings = std::map<std::string, std::string>;
+Rig mixer(const Settings& settings = {}) { return rig("mixer", settings); }
 
-struct Mixer {
-  RigGeometry geometry;
-  const Triangles& part(const std::string& name) const {
-    for (const Part& p : geometry.parts)
-      if (p.name == name) return p.triangles;
-    throw std::out_of_range(name);
-  }
-  double number(const std::string& name) const {
-    for (const auto& [key, value] : geometry.derived)
-      if (key == name) return std::stod(value);
-    throw std::out_of_range(name);
-  }
-};
-
-Mixer mixer(const Settings& settings = {}) {
-  ParFile file = ParFile::read(VIELTO_SOURCE_DIR "/cases/mixer/mixer.par");
-  for (const auto& [name, value] : settings) file.override_value(name, value);
-  GeometryInput input(file);
-  return {rig_geometry(input)};
-}
-
-std::string refusal(const Settings& settings) {
-  try {
-    mixer(settings);
-  } catch (const BadInput& e) {
-    return e.what();
-  }
-  return "accepted";
-}
+std::string refusal(const Settings& settings) { return vielto_test::refusal("mixer", settings); }
 
 vtkSmartPointer<vtkPolyData> poly_data(const Triangles& triangles) {
   vtkNew<vtkPoints> points;
@@ -117,7 +87,7 @@ TEST(MixerDrum, OfASliceHoldsItsShareOfTheLength) {
 
 TEST(MixerDrum, FacesTheGrains) {
   for (const char* slice : {"0", "4"}) {
-    const Mixer m = mixer({{"slicePaddles", slice}});
+    const Rig m = mixer({{"slicePaddles", slice}});
     for (const Triangle& t : m.part("drum")) {
       const Point inside(kLength / 2 * (slice[0] == '0' ? 1 : 4.0 / 22), 0, 0);
       EXPECT_GT(normal(t).dot(inside - centre(t)), 0);
@@ -126,7 +96,7 @@ TEST(MixerDrum, FacesTheGrains) {
 }
 
 TEST(MixerDrum, VerticesLieOnTheCircleAndTheStraightSides) {
-  const Mixer m = mixer();
+  const Rig m = mixer();
   for (const Triangle& t : m.part("drum"))
     for (const Point& p : t) {
       if (p.z() < -1e-12)
@@ -137,7 +107,7 @@ TEST(MixerDrum, VerticesLieOnTheCircleAndTheStraightSides) {
 }
 
 TEST(MixerDrum, OfASliceHasNoEndWallsAndSpansExactlyThePeriod) {
-  const Mixer m = mixer();
+  const Rig m = mixer();
   const Measure size = measure(m.part("drum"));
   EXPECT_EQ(size.low.x(), 0);
   EXPECT_DOUBLE_EQ(size.high.x(), 4 * kLength / 22);
@@ -145,7 +115,7 @@ TEST(MixerDrum, OfASliceHasNoEndWallsAndSpansExactlyThePeriod) {
 }
 
 TEST(MixerDrum, OfTheWholeIsOpenAtTheTopOnly) {
-  const Mixer m = mixer({{"slicePaddles", "0"}});
+  const Rig m = mixer({{"slicePaddles", "0"}});
   EXPECT_EQ(edges(m.part("drum"), false), 0);
   long rim = 0;
   for (const Triangle& t : m.part("drum"))
@@ -156,7 +126,7 @@ TEST(MixerDrum, OfTheWholeIsOpenAtTheTopOnly) {
 }
 
 TEST(MixerPaddle, IsAClosedPlateOfTheStatedVolumeFacingOutward) {
-  const Mixer m = mixer();
+  const Rig m = mixer();
   for (const char* name : {"paddle_2", "paddle_3"}) {  // 1 and 4 are cut by the period
     EXPECT_EQ(edges(m.part(name), true), 0);
     EXPECT_EQ(edges(m.part(name), false), 0);
@@ -170,7 +140,7 @@ TEST(MixerPaddle, IsAClosedPlateOfTheStatedVolumeFacingOutward) {
 }
 
 TEST(MixerPaddle, ThatCrossesThePeriodIsCutThereAndItsOutsidePieceShifted) {
-  const Mixer m = mixer();
+  const Rig m = mixer();
   const double length = 4 * kLength / 22;
   for (const char* name : {"paddle_1", "paddle_4"}) {
     const Triangles& cut = m.part(name);
@@ -190,7 +160,7 @@ TEST(MixerPaddle, ThatCrossesThePeriodIsCutThereAndItsOutsidePieceShifted) {
 }
 
 TEST(MixerPaddle, StandsAtItsAngleCountedFromYToZAndAtItsPlaceOnTheShaft) {
-  const Mixer m = mixer();
+  const Rig m = mixer();
   const double pitch = kLength / 22;
   for (int i : {1, 2}) {
     Point mean = Point::Zero();
@@ -209,7 +179,7 @@ TEST(MixerPaddle, StandsAtItsAngleCountedFromYToZAndAtItsPlaceOnTheShaft) {
 // The face that leads in positive rotation has the normal cos(10 deg) ahead + sin(10 deg) x.
 TEST(MixerPaddle, OfPositiveInclinationPushesTowardsPositiveX) {
   const auto leading = [](const Settings& settings, const std::string& name, const Point& ahead) {
-    const Mixer m = mixer(settings);
+    const Rig m = mixer(settings);
     double largest = 0;
     Point at = Point::Zero();
     for (const Triangle& t : m.part(name)) {
@@ -232,7 +202,7 @@ TEST(MixerPaddle, OfPositiveInclinationPushesTowardsPositiveX) {
 
 // The corner of the tip face lies 25 mm sin(10 deg) + 1 mm cos(10 deg) beside the radius through the paddle's middle.
 TEST(MixerClearance, IsTheTipsAndTheCornersStickOutBeyondIt) {
-  const Mixer m = mixer();
+  const Rig m = mixer();
   const double aside = 0.025 * std::sin(10 * kPi / 180) + 0.001 * std::cos(10 * kPi / 180);
   const double corner = std::hypot(0.124, aside);
   EXPECT_NEAR(m.number("rotorTipRadius"), corner, 1e-12);
@@ -244,7 +214,7 @@ TEST(MixerClearance, IsTheTipsAndTheCornersStickOutBeyondIt) {
 TEST(MixerClearance, ToTheEndWallsIsThatOfTheOuterPaddles) {
   const double half = 0.025 * std::cos(10 * kPi / 180) + 0.001 * std::sin(10 * kPi / 180);
   for (const char* pitch : {"0.033", "0.031"}) {
-    const Mixer m = mixer({{"slicePaddles", "0"}, {"paddlePitch", pitch}});
+    const Rig m = mixer({{"slicePaddles", "0"}, {"paddlePitch", pitch}});
     EXPECT_NEAR(m.number("endGap"), (kLength - 21 * std::stod(pitch)) / 2 - half, 1e-7);  // six digits are written
   }
   EXPECT_GT(mixer().number("endGap"), kLength);  // a slice has no end walls
@@ -268,7 +238,7 @@ TEST(MixerClearance, ThatNoChordCountCanSaveIsRefused) {
 }
 
 TEST(MixerWholeDrum, KeepsItsPaddlesOffTheEndWalls) {
-  const Mixer m = mixer({{"slicePaddles", "0"}});
+  const Rig m = mixer({{"slicePaddles", "0"}});
   const Measure paddles = measure(m.part("paddle_1"));
   const double half = 0.025 * std::cos(10 * kPi / 180) + 0.001 * std::sin(10 * kPi / 180);
   EXPECT_NEAR(paddles.low.x(), (kLength - 21 * 0.033) / 2 - half, 1e-15);
@@ -277,7 +247,7 @@ TEST(MixerWholeDrum, KeepsItsPaddlesOffTheEndWalls) {
 }
 
 TEST(MixerShaft, IsAnOpenTubeThatEndsInTheWallsWithoutAFaceOfItsOwnThere) {
-  const Mixer m = mixer({{"slicePaddles", "0"}});
+  const Rig m = mixer({{"slicePaddles", "0"}});
   const Measure size = measure(m.part("shaft"));
   EXPECT_EQ(size.low.x(), 0);
   EXPECT_EQ(size.high.x(), kLength);
@@ -291,7 +261,7 @@ TEST(MixerShaft, IsAnOpenTubeThatEndsInTheWallsWithoutAFaceOfItsOwnThere) {
 
 // A grain of radius 1 mm or more that overlaps the shaft by less than 5 mm cannot feel a face that lies that deep.
 TEST(MixerStem, BeginsDeepInsideTheShaftAndEndsInsideThePaddlesRange) {
-  const Mixer m = mixer();
+  const Rig m = mixer();
   const Triangles& stems = m.part("stems");
   EXPECT_EQ(stems.size(), 4u * 12);
   EXPECT_EQ(edges(stems, true), 0);
@@ -308,7 +278,7 @@ TEST(MixerStem, BeginsDeepInsideTheShaftAndEndsInsideThePaddlesRange) {
 
 TEST(MixerMesh, HasNoTriangleThatLiggghtsDislikes) {
   for (const char* slice : {"0", "2", "4", "6"}) {
-    const Mixer m = mixer({{"slicePaddles", slice}});
+    const Rig m = mixer({{"slicePaddles", slice}});
     for (const Part& part : m.geometry.parts)
       EXPECT_GT(measure(part.triangles).smallest_angle, 1.0 * kPi / 180) << part.name;
   }

@@ -3,47 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <map>
-#include <stdexcept>
 
-#include "core/bad_input.h"
-#include "rigs/rig_code.h"
+#include "rig_meshes.h"
 
-using namespace vielto;
+using namespace vielto_test;
 
 namespace {
-
-using Settings = std::map<std::string, std::string>;
-
-struct Rig {
-  RigGeometry geometry;
-  const Triangles& part(const std::string& name) const {
-    for (const Part& p : geometry.parts)
-      if (p.name == name) return p.triangles;
-    throw std::out_of_range(name);
-  }
-  double number(const std::string& name) const {
-    for (const auto& [key, value] : geometry.derived)
-      if (key == name) return std::stod(value);
-    throw std::out_of_range(name);
-  }
-};
-
-Rig rig(const std::string& name, const Settings& settings = {}) {
-  ParFile file = ParFile::read(VIELTO_SOURCE_DIR "/cases/" + name + "/" + name + ".par");
-  for (const auto& [key, value] : settings) file.override_value(key, value);
-  GeometryInput input(file);
-  return {rig_geometry(input)};
-}
-
-std::string refusal(const std::string& name, const Settings& settings) {
-  try {
-    rig(name, settings);
-  } catch (const BadInput& e) {
-    return e.what();
-  }
-  return "accepted";
-}
 
 Point normal(const Triangle& t) { return (t[1] - t[0]).cross(t[2] - t[0]).normalized(); }
 Point centre(const Triangle& t) { return (t[0] + t[1] + t[2]) / 3; }
