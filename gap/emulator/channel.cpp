@@ -33,13 +33,22 @@ VectorXd means_of(const Means& means) {
   return v;
 }
 
+// A gauge that an effect adds to is as sure in millimetres whatever it shows.
+bool added_to(const Channel& channel, const std::vector<Effect>& effects) {
+  if (channel.apparatus != "bench") return false;
+  for (const Effect& e : effects)
+    for (const Transform& t : e.transforms)
+      if (t.operation == Operation::add && t.acts_on(channel.apparatus, channel.observable)) return true;
+  return false;
+}
+
 // Names, whether it is relative, walls and materials.
-Channel described(const Values& values) {
+Channel described(const Values& values, const std::vector<Effect>& effects) {
   Channel channel;
   channel.sample = values.front()->row;
   channel.apparatus = channel.sample.apparatus;
   channel.observable = channel.sample.observable;
-  channel.relative = true;
+  channel.relative = !added_to(channel, effects);
   for (const LibraryValue* v : values) {
     channel.relative = channel.relative && v->row.value > 0;
     if (!v->row.wall.empty()) channel.walls.insert(v->row.wall);
@@ -193,7 +202,7 @@ double Channel::smoothed(double value) const { return relative ? std::log(value)
 
 Channel make_channel(const Library& library, const Values& values, const std::vector<Effect>& effects,
                      const ParameterScale& scale) {
-  Channel channel = described(values);
+  Channel channel = described(values, effects);
   add_conditions(channel, values, library.folder);
   channel.size = root_mean_square_of_baseline(library, values);
   const SortedRuns runs = sorted(channel, library, values, effects, scale);

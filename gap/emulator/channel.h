@@ -3,9 +3,10 @@
 // baseline's mean over its seeds, the logarithm of the seed variance, the response to each effect and to the calibrated
 // parameters.
 //
-// An observable whose every run is above 0 is smoothed in its logarithm (`relative`), so that effects multiply; others
-// as they are. Conditions are the numeric ones that vary in the library, as logarithms where all are above 0, in units
-// of their range: 0 at the least, 1 at the largest.
+// An observable whose every run is above 0 is smoothed in its logarithm (`relative`), so that effects multiply; others,
+// and rows of the bench that an effect adds to (the gap under a paddle), as they are. Conditions are the numeric ones
+// that vary in the library, as logarithms where all are above 0, in units of their range: 0 at the least, 1 at the
+// largest.
 #pragma once
 
 #include <map>

@@ -125,7 +125,7 @@ TableModel Emulator::empty_model(const ReducedTable& table) const {
   for (Index i = 0; i < n; ++i) model.observed[i] = table.rows[static_cast<std::size_t>(i)].value;
   model.noise = measured_noise(table);
   for (auto member : {&TableModel::baseline, &TableModel::family_shift, &TableModel::relative, &TableModel::scale,
-                      &TableModel::logarithmic, &TableModel::unknown_scale})
+                      &TableModel::logarithmic})
     model.*member = VectorXd::Zero(n);
   for (auto member : {&TableModel::seed, &TableModel::emulator, &TableModel::family, &TableModel::discrepancy,
                       &TableModel::shape_correlation, &TableModel::reference})

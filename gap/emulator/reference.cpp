@@ -150,7 +150,7 @@ TableModel given_reference(const TableModel& joint, const VectorXd& reference, d
   for (const EffectResponse& e : p.effects)
     if (e.kind == EffectKind::numerical) numerical.push_back(e.name);
   p = p.without(numerical);
-  set_unknown_scale(p, settings);
+  set_unknown_sizes(p, settings);
   return p;
 }
 

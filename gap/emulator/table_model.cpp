@@ -39,18 +39,26 @@ Eigen::VectorXd TableModel::over_scale(const Eigen::VectorXd& x) const {
   return (scale.array() > 0).select(x.array() / scale.array(), 0.0);
 }
 
+Eigen::MatrixXd UnknownShape::covariance(double amplitude) const {
+  const Eigen::VectorXd d = amplitude * size;
+  return d.asDiagonal() * correlation * d.asDiagonal();
+}
+
 TableModel TableModel::part(const std::vector<Eigen::Index>& keep) const {
   TableModel p = *this;
   p.rows.clear();
   for (const Eigen::Index i : keep) p.rows.push_back(rows[i]);
   for (auto member : {&TableModel::observed, &TableModel::baseline, &TableModel::family_shift, &TableModel::relative,
-                      &TableModel::scale, &TableModel::logarithmic, &TableModel::unknown_scale})
+                      &TableModel::scale, &TableModel::logarithmic})
     p.*member = (this->*member)(keep).eval();
   if (known_change.size() > 0) p.known_change = known_change(keep).eval();
   for (auto member : {&TableModel::noise, &TableModel::seed, &TableModel::emulator, &TableModel::family,
                       &TableModel::discrepancy, &TableModel::reference, &TableModel::shape_correlation})
     p.*member = (this->*member)(keep, keep).eval();
-  for (Eigen::MatrixXd& shape : p.unknown_shapes) shape = shape(keep, keep).eval();
+  for (UnknownShape& shape : p.unknown) {
+    shape.correlation = shape.correlation(keep, keep).eval();
+    shape.size = shape.size(keep).eval();
+  }
   p.family_members = family_members(keep, Eigen::all).eval();
   for (EffectResponse& e : p.effects) {
     e.mean = e.mean(keep, Eigen::all).eval();
@@ -74,7 +82,7 @@ TableModel TableModel::in_logarithms(Values values) const {
     p.observed[i] = std::log(observed[i]);
     p.baseline[i] = std::log(baseline[i]);
     p.family_members.row(i) = (family_members.row(i).array() / baseline[i]).log1p();
-    p.unknown_scale[i] /= baseline[i];
+    for (UnknownShape& shape : p.unknown) shape.size[i] /= baseline[i];
   }
   p.noise = over_noise.asDiagonal() * noise * over_noise.asDiagonal();
   for (auto member : {&TableModel::seed, &TableModel::emulator, &TableModel::family, &TableModel::discrepancy,
@@ -126,7 +134,7 @@ TableModel TableModel::with_known(const std::string& name, double strength) cons
   for (Eigen::Index i = 0; i < size(); ++i)
     if (relative[i] > 0) factor[i] = p.baseline[i] / baseline[i];
   p.scale = scale.cwiseProduct(factor);
-  p.unknown_scale = unknown_scale.cwiseProduct(factor);
+  for (UnknownShape& shape : p.unknown) shape.size = shape.size.cwiseProduct(factor).eval();
   p.family_shift = family_shift.cwiseProduct(factor);
   p.family_members = factor.asDiagonal() * family_members;
   const auto scaled = [&](const Eigen::MatrixXd& c) {

@@ -40,6 +40,16 @@ struct EffectResponse {
   Eigen::MatrixXd emulator(double strength) const;
 };
 
+// A gap that nobody named: covariance of its size and correlation. Weight among the shapes it may have.
+struct UnknownShape {
+  double weight = 1;
+  Eigen::MatrixXd correlation;
+  Eigen::VectorXd size;
+  bool kin = false;  // of the measurement chain, a kind of which the library has members (unknown_gap.h)
+
+  Eigen::MatrixXd covariance(double amplitude = 1) const;
+};
+
 // The likelihood is of logarithms where effects multiply (in_logarithms): what is uncertain about a simulation is a
 // factor, and a gap by a third below is as large as one by a half above.
 struct TableModel {
@@ -57,10 +67,7 @@ struct TableModel {
   Eigen::MatrixXd shape_correlation;
   double interaction = 0;        // of two effects: interaction eta_a eta_b r_a r_b/scale, a standard deviation
   Eigen::VectorXd known_change;  // root of the sum of (eta r / scale)^2 over the known effects; empty: there is none
-  // Shapes a gap nobody named may have, one correlation each: smooth within an observable; a level and trends with its
-  // conditions. Alike within an apparatus.
-  std::vector<Eigen::MatrixXd> unknown_shapes;
-  Eigen::VectorXd unknown_scale;  // the effects' usual size at each row
+  std::vector<UnknownShape> unknown;
   std::vector<EffectResponse> effects;
   std::vector<std::string> notes;    // what a reader must know
   std::vector<std::string> outside;  // rows outside the library's conditions, where that is allowed

@@ -24,19 +24,22 @@ Settings Settings::read(const std::string& path) {
   s.interaction = effect.number("interaction", 0, 10);
 
   const TomlTable unknown = file.table("unknown");
-  unknown.only({"amplitude_low", "amplitude_high", "floor"});
+  unknown.only({"amplitude_low", "amplitude_high", "floor", "kin", "kin_share"});
   s.unknown_low = unknown.number("amplitude_low", 1e-3, 1e3);
   s.unknown_high = unknown.number("amplitude_high", s.unknown_low, 1e3);
   s.unknown_floor = unknown.number("floor", 1e-6, 1);
+  s.unknown_kin = unknown.text("kin");
+  s.unknown_kin_share = unknown.number("kin_share", 0, 0.9);
 
   const TomlTable verdict = file.table("verdict");
   verdict.only({"false_alarm", "name_probability", "group_probability", "unknown_probability", "misfit_probability",
-                "draws", "libraries"});
+                "name_misfit_probability", "draws", "libraries"});
   s.false_alarm = verdict.number("false_alarm", 1e-4, 0.5);
   s.name_probability = verdict.number("name_probability", 0.5, 1);
   s.group_probability = verdict.number("group_probability", 0.5, 1);
   s.unknown_probability = verdict.number("unknown_probability", 0, 1);
   s.misfit_probability = verdict.number("misfit_probability", 0, 0.5);
+  s.name_misfit_probability = verdict.number("name_misfit_probability", 0, 0.5);
   s.draws = static_cast<int>(verdict.number("draws", 100, 1e6));
   s.libraries = static_cast<int>(verdict.number("libraries", 1, 1e4));
 

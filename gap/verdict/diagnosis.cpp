@@ -24,32 +24,22 @@ std::vector<const EffectResponse*> responses(const TableModel& model, const std:
   return effects;
 }
 
-std::vector<double> best_strengths(const ModelEvidence& m) {
-  const StrengthNode* best = nullptr;
-  for (const StrengthNode& node : m.posterior)
-    if (!best || node.weight > best->weight) best = &node;
-  return best ? best->strengths : std::vector<double>();
-}
-
 std::vector<double> median_strengths(const ModelEvidence& m) {
   std::vector<double> s;
   for (std::size_t e = 0; e < m.effects.size(); ++e) s.push_back(m.strength(e).value);
   return s;
 }
 
-// Chance of a chi^2 as large as the table's about the model's most probable strengths.
-double fit_probability(const TableModel& model, const ModelEvidence& m) {
-  const auto effects = responses(model, m.effects);
-  const std::vector<double> s = best_strengths(m);
-  const VectorXd d = model.observed - mean_at(model, effects, s);
-  const double chi2 = chi_squared(d, covariance_at(model, effects, s), model);
-  return chi2_exceedance(chi2, std::max<double>(1, static_cast<double>(model.size() - static_cast<Index>(s.size()))));
-}
-
-// By the rivals' log odds, or because no gap alone leaves too much: a gap that
+// By the rivals' log odds, or because no gap alone leaves too much, in the whole table or in one observable: a gap that
 // no rival resembles has no large odds.
 bool is_gap(const TableModel& model, double log_odds, const Threshold& threshold, const Settings& settings) {
-  return log_odds > threshold.log_odds || fit_probability(model, ModelEvidence()) < settings.misfit_probability;
+  if (log_odds > threshold.log_odds) return true;
+  const Fit none = fit_of(model, ModelEvidence());
+  return std::min(none.all, none.worst) < settings.misfit_probability;
+}
+
+bool explains(const Fit& fit, const Settings& settings) {
+  return fit.all >= settings.misfit_probability && fit.worst >= settings.name_misfit_probability;
 }
 
 std::vector<Index> rows_with_role(const TableModel& model, Role role) {
@@ -143,7 +133,7 @@ Judgement judged(const TableModel& model, std::vector<ModelEvidence>& models, bo
                                  [](const ModelEvidence& m) { return m.effects.empty() && !m.unknown; });
   if (!gap_found) {
     v.verdict = Verdict::no_gap;
-    v.fit_probability = fit_probability(model, *none);
+    v.fit = fit_of(model, *none);
     return v;
   }
   double rivals = 0, singles = 0, unknown = 0;
@@ -158,8 +148,8 @@ Judgement judged(const TableModel& model, std::vector<ModelEvidence>& models, bo
     if (m.effects.size() == 2 && !best_pair) best_pair = &m;
     for (const std::string& e : m.effects) with[e] += m.probability;
   }
-  if (best) v.fit_probability = fit_probability(model, *best);
-  if (!best || unknown > settings.unknown_probability * rivals || v.fit_probability < settings.misfit_probability) {
+  if (best) v.fit = fit_of(model, *best);
+  if (!best || unknown > settings.unknown_probability * rivals || !explains(v.fit, settings)) {
     v.verdict = Verdict::unknown;
     return v;
   }
@@ -333,7 +323,7 @@ Diagnosis diagnose(const TableModel& model, const Threshold& threshold, const Se
   d.verdict = v.verdict;
   d.named = v.named;
   d.group = v.group;
-  d.fit_probability = v.fit_probability;
+  d.fit = v.fit;
   d.strengths = strengths_of(d, fit);
 
   VectorXd gap = fit.gap();
@@ -437,7 +427,8 @@ nlohmann::ordered_json diagnosis_json(const Diagnosis& d, const nlohmann::ordere
                    {"threshold_high95", d.threshold.high95},
                    {"draws", d.threshold.draws},
                    {"libraries", d.threshold.libraries}};
-  j["fit_probability"] = d.fit_probability;
+  j["fit_probability"] = d.fit.all;
+  j["worst_fit"] = {{"apparatus", d.fit.apparatus}, {"observable", d.fit.observable}, {"probability", d.fit.worst}};
   j["sensitivity"] = json::array();
   for (const Sensitivity& s : d.sensitivity)
     j["sensitivity"].push_back(
@@ -460,21 +451,32 @@ std::string verdict_sentence(const Diagnosis& d) {
     return fmt::format("{} at strength {:.3g}{} (90 %: {:.3g} to {:.3g})", s.name, s.interval.value,
                        s.unit == "1" ? "" : " " + s.unit, s.interval.low90, s.interval.high90);
   };
-  if (d.verdict == Verdict::no_gap && d.of_a_change)
+  const ModelEvidence* nearest = nullptr;
+  for (const ModelEvidence& m : d.models)
+    if (!nearest && !m.effects.empty()) nearest = &m;
+  if (d.verdict == Verdict::no_gap) {
+    const std::string expected = d.of_a_change ? "what the reference state lets expect" : "the calibrated simulation";
+    // The verdict goes by the threshold on the odds, the probability by the priors: the two need not agree.
+    if (probability("no_gap") < 50 && nearest)
+      return fmt::format(
+          "{} is shown: the measurement differs from {}, but {} ({:.0f} %) stands out no more than chance does in one "
+          "table of a hundred without any (probability of {} {:.0f} %).",
+          d.of_a_change ? "No change" : "No gap", expected, nearest->name(), probability(nearest->name()), none,
+          probability("no_gap"));
     return fmt::format(
-        "No change: the measurement agrees with what the reference state lets expect within everything that is "
-        "uncertain (probability of no change {:.0f} %).",
-        probability("no_gap"));
-  if (d.verdict == Verdict::no_gap)
-    return fmt::format(
-        "No gap: the measurement agrees with the calibrated simulation within everything that is uncertain "
-        "(probability of no gap {:.0f} %).",
-        probability("no_gap"));
-  if (d.verdict == Verdict::unknown)
-    return fmt::format(
-        "{}, and none of the effects in the library nor any two of them explain it (unknown {:.0f} %, {} "
-        "{:.0f} %).",
+        "{}: the measurement agrees with {} within everything that is uncertain (probability of {} {:.0f} %).",
+        d.of_a_change ? "No change" : "No gap", expected, none, probability("no_gap"));
+  }
+  if (d.verdict == Verdict::unknown) {
+    std::string text = fmt::format(
+        "{}, and none of the effects in the library nor any two of them explain it (unknown {:.0f} %, {} {:.0f} %).",
         there, probability("unknown"), none, probability("no_gap"));
+    constexpr double kOff = 0.05;
+    if (nearest && d.fit.worst < kOff)
+      text += fmt::format(" Nearest is {}, which leaves the rows of {} {} off as one table in {:.2g} would.",
+                          nearest->name(), d.fit.apparatus, d.fit.observable, 1 / std::max(d.fit.worst, 1e-9));
+    return text;
+  }
   if (d.verdict == Verdict::ambiguous) {
     constexpr std::size_t kSaid = 3;  // the whole group stands in the table below the sentence
     std::vector<std::string> rivals;

@@ -2,10 +2,12 @@
 // Purpose: the verdict on one observation table, and everything that stands beside it.
 //
 // Verdict, from the evidence of all models (evidence.h):
-//   no_gap     the best rival's log odds stay below the bootstrap threshold, and the table's chi^2 about no gap is not
-//              rarer than misfit_probability: a gap that no rival resembles has no odds, but it is one
+//   no_gap     the best rival's log odds stay below the bootstrap threshold, and what no gap leaves in the table or in
+//              one observable (fit.h) is not rarer than misfit_probability: a gap that no rival resembles has no odds,
+//              but it is one
 //   unknown    the unnamed gap holds more than unknown_probability of the rivals' probability, or the most probable
-//              named model does not fit (chi^2 about its most probable strengths, rarer than misfit_probability)
+//              named model does not fit: what it leaves is rarer than misfit_probability in the table, or rarer than
+//              name_misfit_probability in one observable
 //   named      one model holds name_probability of the rivals' probability; or one effect does, alone and in pairs
 //              together, and alone it is more probable than any pair
 //   ambiguous  else; the group is the smallest set of single effects that holds group_probability of the singles'
@@ -22,6 +24,7 @@
 #include "gap/answer/variant.h"
 #include "gap/answer/verdict.h"
 #include "gap/verdict/evidence.h"
+#include "gap/verdict/fit.h"
 #include "gap/verdict/isolability.h"
 #include "gap/verdict/regions.h"
 #include "gap/verdict/test_design.h"
@@ -85,7 +88,7 @@ struct Diagnosis {
   std::vector<Trend> trends;
   Threshold threshold;
   double log_odds = 0;              // of the best rival
-  double fit_probability = 1;       // of the chi^2 of the most probable named model (or of no gap)
+  Fit fit;                          // of the most probable named model (or of no gap)
   std::optional<Shrink> shrink;     // measured by re-simulation
   std::optional<Shrink> predicted;  // by the emulator, before it
   std::vector<NextTest> next_tests;
@@ -102,7 +105,7 @@ struct Diagnosis {
 struct Judgement {
   Verdict verdict = Verdict::no_gap;
   std::vector<std::string> named, group;
-  double fit_probability = 1;
+  Fit fit;
 };
 
 // `models` with probabilities, sorted by them; `gap_found`: the log odds exceed the threshold.

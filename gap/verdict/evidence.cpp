@@ -144,18 +144,19 @@ MatrixXd covariance_at(const TableModel& model, const Effects& effects, const st
   return c;
 }
 
-std::vector<MatrixXd> unknown_covariances(const TableModel& model, const Settings& settings) {
+std::vector<UnknownNode> unknown_nodes(const TableModel& model, const Settings& settings) {
   constexpr int kAmplitudes = 9;
   const MatrixXd null = model.null_covariance();
-  std::vector<MatrixXd> covariances;
-  for (const MatrixXd& shape : model.unknown_shapes)
+  std::vector<UnknownNode> nodes;
+  for (const UnknownShape& shape : model.unknown) {
+    if (!(shape.weight > 0)) continue;
     for (int i = 0; i < kAmplitudes; ++i) {
       const double amplitude = settings.unknown_low * std::pow(settings.unknown_high / settings.unknown_low,
                                                                static_cast<double>(i) / (kAmplitudes - 1));
-      const VectorXd d = amplitude * model.unknown_scale;
-      covariances.push_back(null + d.asDiagonal() * shape * d.asDiagonal());
+      nodes.push_back({null + shape.covariance(amplitude), std::log(shape.weight / kAmplitudes)});
     }
-  return covariances;
+  }
+  return nodes;
 }
 
 ModelEvidence no_gap_evidence(const TableModel& model) {
@@ -168,9 +169,9 @@ ModelEvidence unknown_evidence(const TableModel& model, const Settings& settings
   ModelEvidence m;
   m.unknown = true;
   std::vector<double> logs;
-  for (const MatrixXd& covariance : unknown_covariances(model, settings))
-    logs.push_back(log_normal_density(model.gap(), covariance));
-  m.log_evidence = log_sum(logs) - std::log(static_cast<double>(logs.size()));
+  for (const UnknownNode& node : unknown_nodes(model, settings))
+    logs.push_back(log_normal_density(model.gap(), node.covariance) + node.log_weight);
+  m.log_evidence = log_sum(logs);
   return m;
 }
 
@@ -292,10 +293,8 @@ VectorXd largest_log_odds(const TableModel& model, const Settings& settings, con
     }
   };
   std::vector<std::pair<VectorXd, double>> nodes;
-  const auto covariances = unknown_covariances(model, settings);
-  for (const MatrixXd& covariance : covariances)
-    nodes.emplace_back(log_densities(tables.colwise() - mean, covariance),
-                       -std::log(static_cast<double>(covariances.size())));
+  for (const UnknownNode& node : unknown_nodes(model, settings))
+    nodes.emplace_back(log_densities(tables.colwise() - mean, node.covariance), node.log_weight);
   add_model(nodes);
 
   // Nodes in the middle of cells that grow with the distance from 0, where tables without a gap lie; weight: the cell's

@@ -5,8 +5,8 @@
 //   ln p(y|M) = ln integral p(s) N(y; f + b + r(s), C(s)) ds        (C: table_model.h)
 // by the midpoint rule on a grid that closes in on where the integrand is. Two effects where values multiply (relative
 // rows) act as r = r_1 + r_2 + r_1 r_2 / f. The unnamed gap: N(y; f + b, C(0) + a^2 D K D), D the effects' usual sizes,
-// K one of unknown_shapes, a even in the logarithm between two amplitudes, all as probable. Posterior probability of a
-// model: prior times evidence, over the sum; they sum to 1.
+// K one of its shapes (unknown_gap.h), a even in the logarithm between two amplitudes, all as probable. Posterior
+// probability of a model: prior times evidence, over the sum; they sum to 1.
 #pragma once
 
 #include <Eigen/Dense>
@@ -50,8 +50,12 @@ Eigen::VectorXd mean_at(const TableModel& model, const std::vector<const EffectR
                         const std::vector<double>& strengths);
 Eigen::MatrixXd covariance_at(const TableModel& model, const std::vector<const EffectResponse*>& effects,
                               const std::vector<double>& strengths);
-// C(0) and the gap's own, for every shape and amplitude it may have, all as probable.
-std::vector<Eigen::MatrixXd> unknown_covariances(const TableModel& model, const Settings& settings);
+// C(0) and the gap's own, for every shape and amplitude it may have; the weights sum to 1.
+struct UnknownNode {
+  Eigen::MatrixXd covariance;
+  double log_weight = 0;
+};
+std::vector<UnknownNode> unknown_nodes(const TableModel& model, const Settings& settings);
 
 ModelEvidence no_gap_evidence(const TableModel& model);
 ModelEvidence unknown_evidence(const TableModel& model, const Settings& settings);

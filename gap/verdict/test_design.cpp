@@ -159,9 +159,8 @@ NextTest judge_candidate(const TableModel& joint, Index present, const Candidate
 NextTest judge_for_unknown(const TableModel& joint, Index present, const CandidateTest& test) {
   const Index n = joint.size();
   const MatrixXd c = joint.null_covariance();
-  MatrixXd shape = MatrixXd::Zero(n, n);
-  for (const MatrixXd& k : joint.unknown_shapes) shape += k / static_cast<double>(joint.unknown_shapes.size());
-  const MatrixXd z = joint.unknown_scale.asDiagonal() * shape * joint.unknown_scale.asDiagonal();
+  MatrixXd z = MatrixXd::Zero(n, n);
+  for (const UnknownShape& shape : joint.unknown) z += shape.weight * shape.covariance();
   VectorXd gap(n);
   const VectorXd now = joint.gap().head(present);
   gap.head(present) = now;

@@ -6,12 +6,15 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <set>
 
 #include "core/bad_input.h"
 #include "core/par_file.h"
 #include "core/rig_table.h"
+#include "gap/emulator/channel.h"
 #include "gap/library/effect.h"
+#include "gap/library/library.h"
 
 namespace {
 
@@ -136,3 +139,24 @@ TEST(GapEffects, RulesByHand) {
 }
 
 }  // namespace
+
+// A feeler gauge is as sure in millimetres whatever it shows, a power transmitter in per cent: rows of the bench that
+// an effect adds to do not go to logarithms, those that effects multiply do.
+TEST(GapEffects, AddToTheBenchInItsUnits) {
+  const std::string libraries = VIELTO_SOURCE_DIR "/libraries";
+  const auto effects = read_effects(libraries + "/effects", Settings::read(libraries + "/diagnosis.toml"));
+  const Library library = Library::read(libraries + "/millet", effects);
+  const ParameterScale scale(library);
+  for (const auto& [observable, relative] : std::map<std::string, bool>{{"paddle_gap", false},
+                                                                        {"grain_spread", false},
+                                                                        {"wall_angle", false},
+                                                                        {"dead_weight_gain", true},
+                                                                        {"loaded_mass", true},
+                                                                        {"restitution", true}}) {
+    std::vector<const LibraryValue*> values;
+    for (const LibraryValue& v : library.values)
+      if (v.row.apparatus == "bench" && v.row.observable == observable) values.push_back(&v);
+    ASSERT_FALSE(values.empty()) << observable;
+    EXPECT_EQ(make_channel(library, values, effects, scale).relative, relative) << observable;
+  }
+}

@@ -46,7 +46,7 @@ TableModel random_model(Eigen::Index n, bool relative, bool shared_noise, std::m
   m.observed = m.baseline;
   m.scale = m.baseline;
   m.relative = VectorXd::Constant(n, relative);
-  m.logarithmic = m.unknown_scale = VectorXd::Zero(n);
+  m.logarithmic = VectorXd::Zero(n);
   m.noise =
       shared_noise ? random_covariance(n, random, 0.02) : MatrixXd(VectorXd::LinSpaced(n, 0.02, 0.05).asDiagonal());
   m.seed = 0.04 * MatrixXd::Identity(n, n);
@@ -120,7 +120,7 @@ TEST(GapReference, ABenchRowOfBothStatesShowsTheChangeOfTheReading) {
   joint.rows.resize(2);
   for (Observation& row : joint.rows) row.apparatus = "bench", row.observable = "grain_spread";
   joint.baseline = joint.observed = VectorXd::Constant(2, 0.05);
-  joint.family_shift = joint.relative = joint.logarithmic = joint.unknown_scale = VectorXd::Zero(2);
+  joint.family_shift = joint.relative = joint.logarithmic = VectorXd::Zero(2);
   joint.scale = VectorXd::Constant(2, 0.05);
   joint.noise = u * u * MatrixXd::Identity(2, 2);
   joint.seed = joint.emulator = joint.discrepancy = joint.reference = joint.family = MatrixXd::Zero(2, 2);
