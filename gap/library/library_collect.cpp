@@ -25,6 +25,13 @@ bool same_setting(const std::string& a, const std::string& b) {
   return x && y ? std::fabs(*x - *y) <= 1e-8 * std::fabs(*y) : a == b;
 }
 
+// A limit on overlaps only ends a run: one that it did not end is the same with a wider limit.
+bool same_run(const std::string& name, const std::string& had, const std::string& planned) {
+  if (same_setting(had, planned)) return true;
+  const auto tight = finite_number(had), wide = finite_number(planned);
+  return name == "maxOverlap" && tight && wide && *tight < *wide;
+}
+
 std::string joined_names(const std::map<std::string, double>& effects) {
   std::vector<std::string> names;
   for (const auto& [name, strength] : effects) names.push_back(name);
@@ -55,7 +62,7 @@ class Files {
       throw BadInput(description, 0, fmt::format("the run was made from another {}", name),
                      "run it again, or bring the file back");
     for (const auto& [name, value] : run.settings)
-      if (const std::string had = made.at("parameters").value(name, ""); !same_setting(had, value))
+      if (const std::string had = made.at("parameters").value(name, ""); !same_run(name, had, value))
         throw BadInput(description, 0,
                        fmt::format("the run was made with {} {}, the plan now has {}", name, had, value),
                        "run it again, or bring the plan and the effect's file back");

@@ -340,6 +340,26 @@ TEST_F(GapLibraryPlan, RefusesRunsOfAnotherScript) {
   EXPECT_FALSE(fs::exists(folder_ / "library/design.csv"));
 }
 
+// A run that a tight limit on overlaps did not end is the same with a wide one; not the other way round.
+TEST_F(GapLibraryPlan, ATighterLimitThatDidNotEndARunChangesNothing) {
+  const std::string hash = script_hash();
+  const auto collect_with = [&](const std::string& made, const std::string& planned) {
+    std::string text = kPlan;
+    const std::string settings = "{grainDiameter = \"0.012\"";
+    text.replace(text.find(settings), settings.size(), settings + ", maxOverlap = \"" + planned + "\"");
+    write("library/plan.toml", text);
+    EXPECT_EQ(plan(), 0) << err_;
+    for (auto run : table(folder_ / "study.csv")) {
+      if (run.count("maxOverlap") > 0) run["maxOverlap"] = made;
+      finish(run, hash);
+    }
+    return collect();
+  };
+  EXPECT_EQ(collect_with("0.3", "0.4"), 0) << err_;
+  EXPECT_EQ(collect_with("0.4", "0.3"), 2) << out_;
+  expect_one_line("was made with maxOverlap 0.4, the plan now has 0.3");
+}
+
 TEST_F(GapLibraryPlan, RefusesAPlanThatCannotBeRun) {
   const auto refused = [&](const std::string& from, const std::string& to, const std::string& part) {
     std::string text = kPlan;
