@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/bad_input.h"
+#include "core/rig_table.h"
 #include "gap/emulator/channel_response.h"
 #include "gap/emulator/measured_noise.h"
 #include "gap/emulator/unknown_gap.h"
@@ -83,6 +84,9 @@ void Emulator::check_row(const Channel& channel, const ReducedTable& table, std:
   const auto refuse = [&](const std::string& column, const std::string& what, const std::string& mend) {
     throw BadInput(table.path, table.lines[i], column, what, mend);
   };
+  if (const NamedObservable* o = find_observable(row.apparatus, row.observable); o && o->fitful)
+    refuse("observable", row.observable + " comes and goes with single grains: no diagnosis may rest on it",
+           "leave the row out");
   const auto label = [&](const char* column, const std::string& value, const std::set<std::string>& known) {
     if (options.ignored.count(column) || value.empty() || known.count(value)) return;
     if (known.empty()) return tell_silent(column, fmt::format("'{}'", value));

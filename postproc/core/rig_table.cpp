@@ -28,11 +28,19 @@ std::vector<NamedObservable> read_observables(const TomlTable& t) {
   std::vector<NamedObservable> result;
   for (const std::string& name : t.keys()) {
     const std::vector<std::string> texts = t.texts(name);
-    const bool any_sign = texts.size() == 3 && texts[2] == "any sign";
-    if (texts.size() != 2 && !any_sign)
-      t.refuse(name, "states no unit and meaning",
-               fmt::format("write {} = [\"UNIT\", \"MEANING\"], or with \"any sign\" as a third", name));
-    result.push_back({name, texts[0], texts[1], any_sign});
+    const std::string mend =
+        fmt::format("write {} = [\"UNIT\", \"MEANING\"], and after them \"any sign\" or \"fitful\"", name);
+    if (texts.size() < 2) t.refuse(name, "states no unit and meaning", mend);
+    NamedObservable observable{name, texts[0], texts[1]};
+    for (std::size_t i = 2; i < texts.size(); ++i) {
+      if (texts[i] == "any sign")
+        observable.any_sign = true;
+      else if (texts[i] == "fitful")
+        observable.fitful = true;
+      else
+        t.refuse(name, fmt::format("'{}' says nothing of an observable", texts[i]), mend);
+    }
+    result.push_back(std::move(observable));
   }
   return result;
 }
@@ -125,7 +133,8 @@ std::string joined(const std::string& (*text_of)(const RigDescription&)) {
 nlohmann::ordered_json observables_json(const std::vector<NamedObservable>& observables) {
   auto j = nlohmann::ordered_json::array();
   for (const NamedObservable& o : observables)
-    j.push_back({{"name", o.name}, {"unit", o.unit}, {"meaning", o.meaning}, {"any_sign", o.any_sign}});
+    j.push_back(
+        {{"name", o.name}, {"unit", o.unit}, {"meaning", o.meaning}, {"any_sign", o.any_sign}, {"fitful", o.fitful}});
   return j;
 }
 

@@ -15,6 +15,7 @@ namespace vielto {
 struct NamedObservable {
   std::string name, unit, meaning;
   bool any_sign = false;  // a simulated value may be 0 or less
+  bool fitful = false;    // comes and goes with single grains: no evidence for a diagnosis
 };
 
 struct RigPicture {

@@ -234,6 +234,12 @@ TEST_F(GapLibraryPlan, CollectsWhatIsDoneAndNamesTheRest) {
             0)
       << err_;
   EXPECT_NEAR(std::stod(table(folder_ / "share.csv")[0].at("value")), 1.0 / 3, 1e-5);
+  // What a paddle carries past the top is a grain wedged under it: no evidence.
+  write("carried.csv",
+        "test,role,apparatus,observable,value,u,unit,speed,fill,moisture,normal_stress,shear_velocity,tilt,wall,"
+        "material\na,fit,mixer,paddle_share_carried,0.05,0.01,1,0.5,0.1,,,,,,millet\n");
+  EXPECT_EQ(gap("diagnose carried.csv --library library --draws 20 --out carried"), 2) << out_;
+  expect_one_line("carried.csv, line 2, column observable: paddle_share_carried comes and goes with single grains");
   const std::string page = content(folder_ / "answer/diagnosis.html");
   for (const char* words : {"Where in the machine", "0 to 60 deg", "<td>sliding</td>"})
     EXPECT_NE(page.find(words), std::string::npos) << words;
