@@ -47,7 +47,7 @@ std::vector<const EffectResponse*> kin_of(const TableModel& model, const Setting
   std::vector<const EffectResponse*> kin;
   for (const EffectResponse& e : model.effects)
     for (std::size_t i = 0; i < model.rows.size(); ++i)
-      if (e.kind == "measurement" && is_kin_row(model.rows[i], settings) &&
+      if (e.kind == EffectKind::measurement && is_kin_row(model.rows[i], settings) &&
           !e.mean.row(static_cast<Index>(i)).isZero(0)) {
         kin.push_back(&e);
         break;

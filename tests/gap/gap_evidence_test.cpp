@@ -385,7 +385,7 @@ TEST(GapUnknown, MovesNoBenchRow) {
 TEST(GapUnknown, ALossOfTheDriveThatIsNotHeldIsNoOtherLoss) {
   const VectorXd flat = VectorXd::Constant(4, 10);
   TableModel m = linear_model(VectorXd::Constant(4, 10), {flat}, -0.15, 0.15);  // a: a factor on all four
-  m.effects[0].kind = "measurement";
+  m.effects[0].kind = EffectKind::measurement;
   m.noise = MatrixXd::Identity(4, 4) * 0.01;  // 1 %
   const double speeds[] = {0.48, 1.58};
   for (std::size_t i = 0; i < 4; ++i) {
