@@ -160,10 +160,12 @@ GaussianProcess::Prediction GaussianProcess::at(const Member& m, const std::vect
 }
 
 GaussianProcess::Prediction GaussianProcess::at(const std::vector<Point>& points) const {
-  Prediction p = at(members_.front(), points);
-  if (members_.size() > 1) {
-    std::vector<Prediction> all = {std::move(p)};
-    for (std::size_t k = 1; k < members_.size(); ++k) all.push_back(at(members_[k], points));
+  Prediction p;
+  if (members_.size() == 1) {
+    p = at(members_.front(), points);
+  } else {
+    std::vector<Prediction> all;
+    for (const Member& member : members_) all.push_back(at(member, points));
     p.mean = VectorXd::Zero(all[0].mean.size());
     p.covariance = MatrixXd::Zero(p.mean.size(), p.mean.size());
     for (std::size_t k = 0; k < all.size(); ++k) p.mean += members_[k].probability * all[k].mean;
