@@ -18,10 +18,14 @@ bool NearPairs::begin(const LAMMPS_NS::LAMMPS* lmp) {
   build_ = neighbor->lastcall;
   const size_t count = grains->nlocal + grains->nghost;
   places_.resize(count);
-  // LIGGGHTS keeps the three values of a grain after those of the one before
-  if (count > 0) search_.places(grains->x[0], grains->radius, count, places_.data());
   age_++;
-  if (!renewed && count == held_.size() && within_margin(count)) return false;
+  // LIGGGHTS keeps the three values of a grain after those of the one before
+  if (!renewed && count == held_.size()) {
+    if (count == 0) return false;
+    if (within_margin(search_.moved(grains->x[0], grains->radius, count, held_.data(), places_.data()))) return false;
+  } else if (count > 0) {
+    search_.places(grains->x[0], grains->radius, count, places_.data());
+  }
   age_ = 0;
   held_ = places_;
   near_.clear();
@@ -29,8 +33,7 @@ bool NearPairs::begin(const LAMMPS_NS::LAMMPS* lmp) {
   return true;
 }
 
-bool NearPairs::within_margin(size_t count) {
-  const Drift drift = search_.drift(places_.data(), held_.data(), count);
+bool NearPairs::within_margin(const Drift& drift) {
   const double nearer = 2 * (sqrt(drift.square) + drift.growth);
   // 1e-9: the margin was compared with rounded distances
   if (nearer < margin_ * (1 - 1e-9)) return true;

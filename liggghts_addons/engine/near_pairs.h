@@ -36,7 +36,7 @@ class NearPairs {
   void forget() { build_ = -1; }
 
  private:
-  bool within_margin(size_t count);
+  bool within_margin(const Drift& drift);
 
   const NearSearch& search_;
   std::vector<Place> places_, held_;  // now; at the last look at all

@@ -20,6 +20,17 @@ Drift drift(const Place* now, const Place* then, size_t count) {
   return most;
 }
 
+Drift moved(const double* x, const double* radius, size_t count, const Place* then, Place* now) {
+  Drift most = {0, 0};
+  for (size_t i = 0; i < count; i++) {
+    const Place place = {x[3 * i], x[3 * i + 1], x[3 * i + 2], radius[i]};
+    const Drift one = drift(&place, then + i, 1);
+    most = {std::max(most.square, one.square), std::max(most.growth, one.growth)};
+    if (now) now[i] = place;
+  }
+  return most;
+}
+
 // Counted without a branch, which the processor would guess wrongly.
 void touching(const Place* places, const NearPair* pairs, size_t count, unsigned char* was, Touching& found) {
   found.count = found.partedCount = 0;
@@ -38,6 +49,6 @@ void touching(const Place* places, const NearPair* pairs, size_t count, unsigned
 
 }  // namespace
 
-const NearSearch plain_search = {1, &places, &drift, &touching};
+const NearSearch plain_search = {1, &places, &drift, &moved, &touching};
 
 }  // namespace vielto

@@ -29,7 +29,7 @@ struct Touching {
   size_t partedCount;
 };
 
-// Greatest square of a distance gone, m2, and greatest growth of a radius, m.
+// Square of a distance that nothing has gone beyond, m2, and that of a radius' growth, m: no less than the greatest.
 struct Drift {
   double square, growth;
 };
@@ -39,6 +39,8 @@ struct NearSearch {
   // x: three values a grain
   void (*places)(const double* x, const double* radius, size_t count, Place*);
   Drift (*drift)(const Place* now, const Place* then, size_t count);
+  // From `then` to the places of x and radius, which are written to `now` unless it is NULL.
+  Drift (*moved)(const double* x, const double* radius, size_t count, const Place* then, Place* now);
   /* After the last pair stand `lanes` more to be read and left out. was: one bit a pair, of `lanes` pairs in a byte, is
      renewed. The lists of `touching` have room for all pairs and `lanes` more. */
   void (*touching)(const Place*, const NearPair*, size_t count, unsigned char* was, Touching&);

@@ -14,14 +14,16 @@ namespace {
 static_assert(sizeof(Place) == 4 * sizeof(double), "a place is a row of four numbers");
 static_assert(Pack::lanes <= 8, "one bit of a byte each");
 
+// Reads the number after the row: the next grain's first, so not for the last grain.
+VIELTO_INLINE hn::Vec<RowTag> place_of(const double* x, const double* radius, size_t i) {
+  const hn::Vec<RowTag> row = hn::LoadU(RowTag(), x + 3 * i), last = hn::Set(RowTag(), radius[i]);
+  return hn::IfThenElse(hn::FirstN(RowTag(), 3), row, last);
+}
+
 void near_places(const double* x, const double* radius, size_t count, Place* out) {
   size_t i = 0;
-  // reads the number after the row: the next grain's first, so not for the last grain
   if constexpr (transposes)
-    for (; i + 1 < count; i++) {
-      const hn::Vec<RowTag> row = hn::LoadU(RowTag(), x + 3 * i), last = hn::Set(RowTag(), radius[i]);
-      hn::StoreU(hn::IfThenElse(hn::FirstN(RowTag(), 3), row, last), RowTag(), &out[i].x);
-    }
+    for (; i + 1 < count; i++) hn::StoreU(place_of(x, radius, i), RowTag(), &out[i].x);
   for (; i < count; i++) out[i] = {x[3 * i], x[3 * i + 1], x[3 * i + 2], radius[i]};
 }
 
@@ -40,6 +42,29 @@ Drift near_drift(const Place* now, const Place* then, size_t count) {
   }
   const Drift rest = plain_search.drift(now + whole, then + whole, count - whole);
   return {std::max(greatest(square), rest.square), std::max(greatest(growth), rest.growth)};
+}
+
+// The greatest change of each coordinate; nothing has gone farther than the length of the three.
+template <bool Write>
+VIELTO_INLINE Drift moved(const double* x, const double* radius, size_t count, const Place* then, Place* now) {
+  double most[4] = {0, 0, 0, 0};
+  size_t i = 0;
+  if constexpr (transposes) {
+    hn::Vec<RowTag> change = hn::Zero(RowTag());
+    for (; i + 1 < count; i++) {
+      const hn::Vec<RowTag> place = place_of(x, radius, i);
+      if (Write) hn::StoreU(place, RowTag(), &now[i].x);
+      change = hn::Max(change, hn::Abs(hn::Sub(place, hn::LoadU(RowTag(), &then[i].x))));
+    }
+    hn::StoreU(change, RowTag(), most);
+  }
+  const Drift rest = plain_search.moved(x + 3 * i, radius + i, count - i, then + i, Write ? now + i : nullptr);
+  return {std::max(most[0] * most[0] + most[1] * most[1] + most[2] * most[2], rest.square),
+          std::max(most[3], rest.growth)};
+}
+
+Drift near_moved(const double* x, const double* radius, size_t count, const Place* then, Place* now) {
+  return now ? moved<true>(x, radius, count, then, now) : moved<false>(x, radius, count, then, now);
 }
 
 // Appends base, base + 1, ... where a bit is set; writes up to a register beyond the last.

@@ -22,17 +22,18 @@ int triangles(TriMesh* mesh) { return mesh->sizeLocal() + mesh->sizeGhost(); }
 
 bool NearWalls::begin(const Atom* grains, FixMeshSurface* const* meshes, int count, double reach, bool renewed) {
   age_++;
-  places_.resize(grains->nlocal);
-  // LIGGGHTS keeps the three values of a grain after those of the one before
-  if (!places_.empty()) search_.places(grains->x[0], grains->radius, places_.size(), places_.data());
-  if (!renewed && held_.size() == places_.size()) {
-    const double nearer = approach(meshes, count);
-    // 1e-9: the margin was compared with rounded distances
-    if (nearer < margin_ * (1 - 1e-9)) return false;
-    margin_ = 16 * nearer / age_;
+  const size_t all = static_cast<size_t>(grains->nlocal);
+  if (!renewed && held_.size() == all) {
+    // 1e-9: margin and gaps are compared with rounded distances
+    nearer_ = approach(grains, meshes, count) * (1 + 1e-9);
+    if (nearer_ < margin_) return false;
+    margin_ = 16 * nearer_ / age_;
   }
   age_ = 0;
-  held_ = places_;
+  nearer_ = 0;
+  held_.resize(all);
+  // LIGGGHTS keeps the three values of a grain after those of the one before
+  if (all > 0) search_.places(grains->x[0], grains->radius, all, held_.data());
   corners_.resize(count);
   entries_.resize(count);
   for (int m = 0; m < count; m++) {
@@ -43,8 +44,9 @@ bool NearWalls::begin(const Atom* grains, FixMeshSurface* const* meshes, int cou
 }
 
 // How much nearer any grain may be to any triangle than at the last look, at most.
-double NearWalls::approach(FixMeshSurface* const* meshes, int count) {
-  const Drift grains = search_.drift(places_.data(), held_.data(), places_.size());
+double NearWalls::approach(const Atom* atoms, FixMeshSurface* const* meshes, int count) {
+  Drift grains = {0, 0};
+  if (!held_.empty()) grains = search_.moved(atoms->x[0], atoms->radius, held_.size(), held_.data(), nullptr);
   double turned = 0;
   for (int m = 0; m < count; m++) {
     TriMesh* const mesh = meshes[m]->triMesh();
@@ -81,16 +83,16 @@ void NearWalls::look(const Atom* grains, FixMeshSurface* fix, double reach, std:
     for (const int i : list) {
       if (i >= grains->nlocal) continue;
       double* const x = grains->x[i];
-      const double radius = grains->radius[i], far = radius * (1 + reach + 1e-6) + margin_;
+      const double radius = grains->radius[i], far = radius * (1 + reach + 1e-6);
       const double height =
           (x[0] - origin[0]) * normal[0] + (x[1] - origin[1]) * normal[1] + (x[2] - origin[2]) * normal[2];
       // 1e-6: the normal turns with the mesh and carries its round-off
-      if (fabs(height) > far) continue;
+      if (fabs(height) > far + margin_) continue;
       double delta[3], bary[3];
       int side = -1;
       // the whole triangle, with the corners and edges that another triangle answers for
-      if (mesh->resolveTriSphereContactBary(i, t, radius, x, delta, bary, side, false) + radius < far)
-        entries.push_back({t, i});
+      const double gap = mesh->resolveTriSphereContactBary(i, t, radius, x, delta, bary, side, false) + radius - far;
+      if (gap < margin_) entries.push_back({t, i, gap});
     }
   }
 }

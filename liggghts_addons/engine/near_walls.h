@@ -21,6 +21,7 @@ class NearWalls {
  public:
   struct Entry {
     int triangle, grain;
+    double gap;  // m, from the reach of the grain to the triangle at the last look at all
   };
 
   explicit NearWalls(const NearSearch& search) : search_(search) {}
@@ -31,19 +32,22 @@ class NearWalls {
              bool renewed);
   // Of one mesh, by triangle and then as in the triangle's list.
   const std::vector<Entry>& of(int mesh) const { return entries_[mesh]; }
+  // An entry with a greater gap is not in reach yet, m.
+  double nearer() const { return nearer_; }
 
  private:
-  double approach(LAMMPS_NS::FixMeshSurface* const* meshes, int count);
+  double approach(const LAMMPS_NS::Atom* grains, LAMMPS_NS::FixMeshSurface* const* meshes, int count);
   void corners(LAMMPS_NS::FixMeshSurface* mesh, std::vector<Place>& places) const;
   void look(const LAMMPS_NS::Atom* grains, LAMMPS_NS::FixMeshSurface* mesh, double reach, std::vector<Entry>& entries);
 
   const NearSearch& search_;
-  std::vector<Place> places_, held_;         // grains now, and at the last look at all
+  std::vector<Place> held_;                  // grains at the last look at all
   std::vector<Place> nodes_;                 // corners of a mesh now
   std::vector<std::vector<Place>> corners_;  // of each mesh, then
   std::vector<std::vector<Entry>> entries_;
   double margin_ = 0;
-  int age_ = 0;  // steps since the last look at all
+  double nearer_ = 0;  // what grains and triangles have come nearer since, at most
+  int age_ = 0;        // steps since the last look at all
 };
 
 }  // namespace vielto

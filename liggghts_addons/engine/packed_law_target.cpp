@@ -260,9 +260,10 @@ void add(const PackedStep& step, const PackedGrains& g, const NearPair* pairs, c
 }  // namespace
 
 extern const PackedLaw VIELTO_PACKED_SET;
-const PackedLaw VIELTO_PACKED_SET = {&press,           &add,
-                                     &evaluate<true>,  {Pack::lanes, &near_places, &near_drift, &near_touching},
-                                     &integrate<true>, &integrate<false>,
-                                     &weigh,           {&turn, &swing, &farthest}};
+const PackedLaw VIELTO_PACKED_SET = {
+    &press,           &add,
+    &evaluate<true>,  {Pack::lanes, &near_places, &near_drift, &near_moved, &near_touching},
+    &integrate<true>, &integrate<false>,
+    &weigh,           {&turn, &swing, &farthest}};
 
 }  // namespace vielto

@@ -125,6 +125,7 @@ void FixViEltoWall::meet(FixMeshSurface* fixMesh, int imesh) {
   int t = -1;
   double origin[3] = {0, 0, 0}, normal[3] = {0, 0, 0};
   for (const NearWalls::Entry& entry : entries) {
+    if (entry.gap > near_.nearer()) continue;
     const int i = entry.grain;
     if (entry.triangle != t) {
       t = entry.triangle;
