@@ -7,6 +7,7 @@ law         ViElTo over the stock law with the same ingredients: the law (pair l
 ranks       two ranks over one; bytes a grain
 yade        particle-steps a second over Yade's, the stirred drum of yade/stir
 yade_10k    the same drum 17 times as long, 10 200 grains
+yade_100k   170 times as long, 102 000 grains
 lammps      a step over the distribution's LAMMPS with the same ingredients, a packing without walls
 size        cost of a grain and step against the number of grains
 triangles   cost of a step against the number of triangles

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The parts of the benchmark. Each takes (folder, quick, pairs) and returns what it adds to the results."""
+import csv
 import json
 import math
 import os
@@ -132,11 +133,17 @@ def yade_10k(folder, quick, pairs):
     }
 
 
+def yade_100k(folder, quick, pairs):
+    """The same with 102 000 grains; few turns, as a step of Yade takes seconds."""
+    turns, copies = (6, 20) if quick else (min(pairs, 12), 170)
+    return {"particle_steps_over_yade_100k": beside_yade(folder, quick, turns, copies, (10, 4), 30)}
+
+
 def grid(folder, quick, pairs):
     """Core minutes of the 4 x 4 grid of speeds and fills in cases/mixer, 8 mm, 6 turns each, by the processor's clock.
 
-    The cost of a step is taken at the least and the greatest fill and is linear in the fill between them; that of a
-    turn is its steps times that."""
+    `campaign_minutes` are those of studies/grid_8mm.csv, with its turns. The cost of a step is taken at the least and
+    the greatest fill and is linear in the fill between them; that of a turn is its steps times that."""
     speeds, fills, turns = (0.48, 0.85, 1.21, 1.58), (0.10, 0.15, 0.20, 0.25), 6
 
     def run(fill, length):
@@ -174,10 +181,15 @@ def grid(folder, quick, pairs):
         share = (fill - fills[0]) / (fills[-1] - fills[0])
         return values[fills[0]] * (1 - share) + values[fills[-1]] * share
 
-    seconds = sum(between(settle, fill) + turns * perTurn / n * between(step, fill) for n in speeds for fill in fills)
+    def minutes(runs):
+        return sum(between(settle, f) + t * perTurn / n * between(step, f) for n, f, t in runs) / 60
+
+    with open(ROOT / "studies/grid_8mm.csv") as study:
+        campaign = [tuple(float(row[c]) for c in ("speed", "fill", "turns")) for row in csv.DictReader(study)]
     return {
         "grid_8mm_core_minutes": {
-            "minutes": seconds / 60,
+            "minutes": minutes((n, fill, turns) for n in speeds for fill in fills),
+            "campaign_minutes": minutes(campaign),
             "us_per_step": [1e6 * step[fill] for fill in step],
             "steps_per_turn": perTurn,
             "settle_s": list(settle.values()),
@@ -271,10 +283,11 @@ def memory(folder, quick, pairs):
     }
 
 
-PARTS = {part.__name__: part for part in (law, ranks, yade, yade_10k, lammps, size, triangles, memory, grid)}
+PARTS = {part.__name__: part for part in (law, ranks, yade, yade_10k, yade_100k, lammps, size, triangles, memory, grid)}
 PACKAGES = {
     "yade": ["yade"],
     "yade_10k": ["yade"],
+    "yade_100k": ["yade"],
     "lammps": ["lammps"],
 }  # lists in scripts/packages beyond those of every part
 
