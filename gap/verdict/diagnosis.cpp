@@ -457,12 +457,11 @@ std::string verdict_sentence(const Diagnosis& d) {
   if (d.verdict == Verdict::no_gap) {
     const std::string expected = d.of_a_change ? "what the reference state lets expect" : "the calibrated simulation";
     // The verdict goes by the threshold on the odds, the probability by the priors: the two need not agree.
-    if (probability("no_gap") < 50 && nearest)
+    if (probability("no_gap") < 50)
       return fmt::format(
-          "{} is shown: the measurement differs from {}, but {} ({:.0f} %) stands out no more than chance does in one "
-          "table of a hundred without any (probability of {} {:.0f} %).",
-          d.of_a_change ? "No change" : "No gap", expected, nearest->name(), probability(nearest->name()), none,
-          probability("no_gap"));
+          "{} is shown: the measurement differs from {}, but no cause stands out more than chance lets one do in a "
+          "hundred tables without any (probability of {} {:.0f} %).",
+          d.of_a_change ? "No change" : "No gap", expected, none, probability("no_gap"));
     return fmt::format(
         "{}: the measurement agrees with {} within everything that is uncertain (probability of {} {:.0f} %).",
         d.of_a_change ? "No change" : "No gap", expected, none, probability("no_gap"));

@@ -67,6 +67,24 @@ with tempfile.TemporaryDirectory(prefix="vielto-robust-") as name:
         assert rows[change]["no_gap"] != first["no_gap"], rows[change]
     assert [p for p in os.listdir(ROOT / "libraries") if p.startswith("half_")] == []
 
+    # A gap asks for the next test, whose candidates lie beside the settings: no change of the prior may lose them. Another
+    # value of a row that shares errors is refused by its covariance, which is an answer too.
+    with open(folder / "b.csv", newline="", encoding="utf-8") as file:
+        table = list(csv.DictReader(file))
+    for row in table:
+        row["value"] = f"{float(row['value']) * 1.6:.12g}"
+    with open(folder / "gap.csv", "w", newline="", encoding="utf-8") as file:
+        writer = csv.DictWriter(file, table[0], lineterminator="\n")
+        writer.writeheader()
+        writer.writerows(table)
+    done = robust(folder / "gap.csv")
+    assert done.returncode == 0, done.stderr
+    with open(folder / "robust.csv", encoding="utf-8") as file:
+        rows = {row["change"]: row for row in csv.DictReader(file)}
+    assert rows["as stated"]["verdict"] not in ("no_gap", "refused"), rows
+    assert all("next_tests.toml" not in row["said"] for row in rows.values()), rows
+    assert all(rows[f"prior of causes x{f}"]["verdict"] != "refused" for f in (0.5, 2.5)), rows
+
     (folder / "empty.csv").write_text((folder / "b.csv").read_text().replace(",fit,", ",check,"))
     bad = robust(folder / "empty.csv")
     assert bad.returncode == 2 and "holds no row of role fit" in bad.stderr, bad

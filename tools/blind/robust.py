@@ -39,7 +39,7 @@ def work(options):
         answers = [{"change": change, **case.answer(**how)} for change, how in changes(case, table)]
     tables.write(options.out, COLUMNS, answers)
     first = answers[0]
-    same = sum((a["verdict"], a["named"]) == (first["verdict"], first["named"]) for a in answers[1:])
+    same = sum((a["verdict"], a.get("named")) == (first["verdict"], first.get("named")) for a in answers[1:])
     print(f"{first['verdict']} {first['named']}".strip() + f"; {same} of {len(answers) - 1} changes leave it so")
 
 
@@ -82,8 +82,10 @@ class Case:
         total = sum(prior.values())
         for kind, value in prior.items():
             text = re.sub(rf"^{kind} = [0-9.]+", f"{kind} = {value / total:.12g}", text, count=1, flags=re.M)
-        path = self.folder / f"settings{factor}.toml"
+        path = self.folder / f"settings{factor}" / "diagnosis.toml"
+        path.parent.mkdir(exist_ok=True)
         path.write_text(text, encoding="utf-8")
+        shutil.copy(self.here / "next_tests.toml", path.parent)  # they are looked for beside the settings
         return ["--library", self.options.library, "--effects", self.here / "effects", "--settings", path]
 
     def with_half_the_runs(self):
