@@ -19,6 +19,11 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+bool is_fitful(const Observation& row) {
+  const NamedObservable* o = find_observable(row.apparatus, row.observable);
+  return o && o->fitful;
+}
+
 [[noreturn]] void refuse_known(const std::string& name, const std::string& what, const std::string& mend) {
   throw BadInput("--known " + name, 0, what, mend);
 }
@@ -84,7 +89,7 @@ void Emulator::check_row(const Channel& channel, const ReducedTable& table, std:
   const auto refuse = [&](const std::string& column, const std::string& what, const std::string& mend) {
     throw BadInput(table.path, table.lines[i], column, what, mend);
   };
-  if (const NamedObservable* o = find_observable(row.apparatus, row.observable); o && o->fitful)
+  if (is_fitful(row))
     refuse("observable", row.observable + " comes and goes with single grains: no diagnosis may rest on it",
            "leave the row out");
   const auto label = [&](const char* column, const std::string& value, const std::set<std::string>& known) {
@@ -283,7 +288,7 @@ std::map<std::pair<std::string, std::string>, LawDifference> Emulator::differenc
   std::vector<std::string> outside, silent;
   for (std::size_t i = 0; i < law.rows.size(); ++i) {
     const Channel& channel = channel_of(law, i);
-    if (!channel.log_seed_variance) continue;
+    if (!channel.log_seed_variance || is_fitful(law.rows[i])) continue;
     check_row(channel, law, i, options, outside, silent);
     add_to(groups[{channel.apparatus, channel.observable}], channel.point(law.rows[i]), law.rows[i].value);
   }

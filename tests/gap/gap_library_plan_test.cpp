@@ -390,6 +390,19 @@ TEST_F(GapLibraryPlan, RefusesAPlanThatCannotBeRun) {
 }
 
 // A library whose inputs.csv names a file that has moved is refused whole, before its numbers are looked at.
+// The law discrepancy of the library in use is what the command of its plan makes of the laws' runs; rows that no
+// diagnosis takes (fitful) are passed over.
+TEST_F(GapLibraryPlan, TheCommittedDiscrepancyIsThatOfItsCommand) {
+  const fs::path libraries = VIELTO_SOURCE_DIR "/libraries";
+  std::string laws;
+  for (const char* name : {"mixer_hooke", "mixer_hooke_paddle", "mixer_hertz", "rigs_hooke", "rigs_hertz"})
+    laws += fmt::format(" '{}'", (libraries / "laws" / (std::string(name) + ".csv")).string());
+  ASSERT_EQ(gap("discrepancy" + laws + " --library '" + (libraries / "millet").string() + "' --out made.csv"), 0)
+      << err_;
+  EXPECT_EQ(content(folder_ / "made.csv"), content(libraries / "millet/discrepancy.csv"));
+  EXPECT_EQ(content(folder_ / "made.csv").find("paddle_share_carried"), std::string::npos);
+}
+
 TEST(CommittedLibraries, NameInputsThatAreThere) {
   int files = 0;
   for (const auto& library : fs::directory_iterator(VIELTO_SOURCE_DIR "/libraries")) {
