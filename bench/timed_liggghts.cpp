@@ -180,7 +180,7 @@ int main(int argc, char** argv) {
   {
     LAMMPS lammps(argc, argv, MPI_COMM_WORLD);
     auto& fixes = *(lammps.modify->*vielto::Handed<FixTable>::pointer);
-    for (int k = 0; k < 4; k++) stock[k] = fixes[motions[k]];
+    for (int k = 0; k < 4; k++) stock[k] = fixes[k < 3 ? motions[k] : "mesh/surface"];  // stress is a module there
     vielto::install(&lammps);
     for (int k = 0; k < 4; k++) ours[k] = fixes[motions[k]];
     fixes[motions[0]] = &make_motion<0>;

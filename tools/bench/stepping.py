@@ -23,8 +23,8 @@ def build(packages=()):
     )
 
 
-def command(script, ranks, variables, program=BIN / "vielto_bench"):
-    words = [str(program), "-in", str(script), "-var", "bench", str(ROOT / "bench")]
+def command(script, ranks, variables, program=None):
+    words = [str(program or BIN / "vielto_bench"), "-in", str(script), "-var", "bench", str(ROOT / "bench")]
     for name, value in variables.items():
         words += ["-var", name, str(value)]
     return (["mpirun", "--oversubscribe", "-np", str(ranks)] if ranks > 1 else []) + words
