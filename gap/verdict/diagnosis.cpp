@@ -472,7 +472,7 @@ std::string verdict_sentence(const Diagnosis& d) {
         there, probability("unknown"), none, probability("no_gap"));
     constexpr double kOff = 0.05;
     if (nearest && d.fit.worst < kOff)
-      text += fmt::format(" Nearest is {}, which leaves the rows of {} {} off as one table in {:.2g} would.",
+      text += fmt::format(" Nearest is {}, which leaves the rows of {} {} off as one table in {:.0f} would.",
                           nearest->name(), d.fit.apparatus, d.fit.observable, 1 / std::max(d.fit.worst, 1e-9));
     return text;
   }

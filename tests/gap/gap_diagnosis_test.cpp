@@ -410,4 +410,31 @@ TEST(GapPage, OfNoGapTellsWhatCouldHideOne) {
   EXPECT_EQ(diagnosis_page(answer, "mixer").find("no proof"), std::string::npos);
 }
 
+// A reader is told what nearly fits and where it does not, and that a measurement may differ without a cause that
+// stands out.
+TEST(GapSentence, OfAnUnknownGapAndOfNoneThatIsShown) {
+  Diagnosis d;
+  d.models.resize(3);
+  d.models[0].unknown = true;
+  d.models[0].probability = 0.6;
+  d.models[1].effects = {"drive_loss"};
+  d.models[1].probability = 0.3;
+  d.models[2].probability = 0.1;
+  d.verdict = Verdict::unknown;
+  d.fit.apparatus = "bench";
+  d.fit.observable = "dead_weight_gain";
+  d.fit.worst = 0.002;
+  EXPECT_NE(
+      verdict_sentence(d).find("Nearest is drive_loss, which leaves the rows of bench dead_weight_gain off as one "
+                               "table in 500 would."),
+      std::string::npos)
+      << verdict_sentence(d);
+  d.fit.worst = 0.5;
+  EXPECT_EQ(verdict_sentence(d).find("Nearest"), std::string::npos) << verdict_sentence(d);
+  d.verdict = Verdict::no_gap;
+  EXPECT_NE(verdict_sentence(d).find("no cause stands out"), std::string::npos) << verdict_sentence(d);
+  std::swap(d.models[0].probability, d.models[2].probability);
+  EXPECT_NE(verdict_sentence(d).find("agrees with"), std::string::npos) << verdict_sentence(d);
+}
+
 }  // namespace
