@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "atom.h"
+#include "engine/pair_list.h"
 #include "lammps.h"
 #include "neighbor.h"
 #include "update.h"
@@ -16,6 +17,8 @@ bool NearPairs::begin(const LAMMPS_NS::LAMMPS* lmp) {
   const bool renewed =
       lmp->update->setupflag || build_ != neighbor->lastcall || neighbor->lastcall == lmp->update->ntimestep;
   build_ = neighbor->lastcall;
+  // at the start of a run LIGGGHTS has set up its own anew
+  if (lmp->update->setupflag) take_pair_lists(lmp->neighbor);
   const size_t count = grains->nlocal + grains->nghost;
   places_.resize(count);
   age_++;

@@ -10,6 +10,7 @@
 #define VIELTO_PACKED_LAW_H
 
 #include "engine/near_search.h"
+#include "engine/pair_list.h"
 #include "vielto_law.h"
 #include "vielto_state.h"
 
@@ -93,6 +94,9 @@ struct PackedLaw {
   void (*add)(const PackedStep&, const PackedGrains&, const NearPair*, const size_t* touching, int count, const Block&);
   bool (*walls)(const PackedStep&, Block&, int count);
   NearSearch search;
+  /* Of grains `from` to `to`, before it, those that are neighbours and have a greater number; `out` has room for all of
+     them and a register more. Tells how many. */
+  size_t (*neighbours)(const BinnedGrains&, const GrainToPair&, size_t from, size_t to, double* out);
   void (*kick_and_move)(const GrainMotion&);  // first half step of fix nve/sphere
   void (*kick)(const GrainMotion&);           // its second half
   void (*weigh)(const GrainMotion&);          // fix gravity

@@ -7,6 +7,7 @@
 #include "engine/near_search_target.h"
 #include "engine/packed_law.h"
 #include "engine/packed_number.h"
+#include "engine/pair_list_target.h"
 
 namespace vielto {
 namespace {
@@ -260,10 +261,14 @@ void add(const PackedStep& step, const PackedGrains& g, const NearPair* pairs, c
 }  // namespace
 
 extern const PackedLaw VIELTO_PACKED_SET;
-const PackedLaw VIELTO_PACKED_SET = {
-    &press,           &add,
-    &evaluate<true>,  {Pack::lanes, &near_places, &near_drift, &near_moved, &near_touching},
-    &integrate<true>, &integrate<false>,
-    &weigh,           {&turn, &swing, &farthest}};
+const PackedLaw VIELTO_PACKED_SET = {&press,
+                                     &add,
+                                     &evaluate<true>,
+                                     {Pack::lanes, &near_places, &near_drift, &near_moved, &near_touching},
+                                     &neighbours,
+                                     &integrate<true>,
+                                     &integrate<false>,
+                                     &weigh,
+                                     {&turn, &swing, &farthest}};
 
 }  // namespace vielto
