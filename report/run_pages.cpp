@@ -49,15 +49,16 @@ Plot torque_plot(const TorqueRecord& record, const std::optional<json>& power) {
     double mean = 0;
     for (std::size_t j = i; j < i + group; ++j) mean += torque[j] / static_cast<double>(group);
     curve.xy.push_back(
-        {start + (static_cast<double>(i) + 0.5 * static_cast<double>(group)) / kPhases * turn_time, mean});
+        {start + (static_cast<double>(i) + 0.5 * static_cast<double>(group)) / record.block_phases() * turn_time,
+         mean});
   }
-  Series means{record.turns_per_block > 1 ? fmt::format("means of {} turns", record.turns_per_block) : "turn means",
+  Series means{record.turns_per_block == 1 ? "turn means" : fmt::format("means of {} turns", record.turns_per_block),
                Look::line,
                1,
                {},
                {},
                {}};
-  const std::vector<double> turns = turn_means(torque, kPhases);
+  const std::vector<double> turns = turn_means(torque, record.block_phases());
   for (std::size_t t = 0; t < turns.size(); ++t)
     for (const double end : {0.0, 1.0})
       means.xy.push_back({start + (static_cast<double>(t) + end) * turn_time, turns[t]});
@@ -141,7 +142,8 @@ Table limit_table(const json& p) {
       {"greatest overlap, % of the diameter", number(q.at("overlap_max"), 100),
        fmt::format("{}", 100 * kMostOverlapMax)},
       {"lost grains", number(q.at("lost_grains")), "0"},
-      {"turns averaged", number(p.at("turns_averaged")), fmt::format("at least {}", kLeastAveragedTurns)},
+      {"turns averaged", number(p.at("turns_averaged")),
+       fmt::format("at least {}; of parts of a turn {}", kLeastAveragedTurns, kLeastPartTurns)},
       {"effective samples", number(p.at("effective_samples")), fmt::format("at least {}", kFewSamples)},
       {"energy left over, % of the work", number(q.at("energy_closure_relative"), 100),
        fmt::format("{}", 100 * kMostEnergyGap)},
@@ -236,7 +238,7 @@ std::optional<PowerPoint> add_run(RunOfReport& run, bool alone, Page& page) {
   if (!run.picture.empty())
     section.blocks.push_back(
         Picture{"The rig at the end of the run, rendered from its meshes and grains", use(run.picture)});
-  if (record.turns > 0) {
+  if (record.blocks > 0) {
     Plot torque = torque_plot(record, power);
     torque.file = named(run.name, "torque_over_time");
     torque.title = titled(run.name, idling ? "Idling torque over time" : "Torque over time");

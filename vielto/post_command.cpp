@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // vielto post RUN [--idle IDLERUN]: a run's record -> numbers with uncertainty, observation rows, pictures, in
 // RUN/post.
+#include <fmt/format.h>
+
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -65,9 +67,12 @@ void add_post_command(CLI::App& app) {
   command->add_option("RUN", options->input.record, "run folder, or the record in it (" + record_names() + ")")
       ->required();
   command->add_option("--idle", options->input.idle, "run folder or torque.csv of the empty machine at the same speed");
-  command->add_option("--turns", options->input.turns, "steady whole turns asked for")
-      ->check(CLI::Range(kLeastAveragedTurns, 1000000))
-      ->capture_default_str();
+  command
+      ->add_option("--turns", options->input.turns,
+                   fmt::format("steady whole turns asked for; default {}, and {} of a run that ended when its power "
+                               "was known",
+                               kLeastAveragedTurns, kLeastPartTurns))
+      ->check(CLI::Range(kLeastAveragedTurns, 1000000));
   command->add_option("--test", options->input.label.test,
                       "name of the test in observations.csv (default: from the conditions)");
   add_role_option(command, options->input.label.role);

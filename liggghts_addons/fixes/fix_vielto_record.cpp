@@ -66,12 +66,21 @@ FixViEltoRecord::~FixViEltoRecord() = default;
 int FixViEltoRecord::modify_param(int narg, char** arg) {
   if (std::string(arg[0]) != "until") return 0;
   if (narg < 3) error->fix_error(FLERR, this, "until takes two numbers, an uncertainty and the rows of a turn");
-  const double target = number(arg, 1), rows = number(arg, 2);
-  if (!(target > 0 && target < 1 && rows >= 1 && rows == std::floor(rows)))
-    error->fix_error(FLERR, this, "until U ROWS needs 0 < U < 1 and a whole number of rows");
-  rowsOfTurn_ = static_cast<int>(rows);
-  if (comm->me == 0) rule_ = std::make_unique<vielto::StoppingRule>(rowsOfTurn_, target);
-  return 3;
+  const double target = number(arg, 1), rows = number(arg, 2), parts = narg > 3 ? number(arg, 3) : 1;
+  if (!(target > 0 && target < 1 && rows >= 1 && parts >= 1 && rows == std::floor(rows) && parts == std::floor(parts)))
+    error->fix_error(FLERR, this, "until U ROWS [PARTS] needs 0 < U < 1 and whole numbers of rows and of parts");
+  if (vielto::kPhases % static_cast<int>(parts) != 0)
+    error->fix_error(FLERR, this,
+                     "until U ROWS PARTS: PARTS must divide 72, the phases that a turn's torque is kept in");
+  // where a row would reach over two parts, whole turns are looked at
+  turnParts_ = std::fmod(rows, parts) == 0 ? static_cast<int>(parts) : 1;
+  rowsOfPart_ = static_cast<int>(rows) / turnParts_;
+  // in phases, as a power is made from: the torque rings from row to row, which would make u twice too large
+  const int phases = vielto::kPhases / turnParts_;
+  rowsOfPhase_ = rowsOfPart_ % phases == 0 ? rowsOfPart_ / phases : 1;
+  const int least = turnParts_ > 1 ? vielto::kLeastPartTurns * turnParts_ : vielto::kLeastAveragedTurns;
+  if (comm->me == 0) rule_ = std::make_unique<vielto::StoppingRule>(rowsOfPart_ / rowsOfPhase_, target, least);
+  return std::min(narg, 4);
 }
 
 // The parts' torques stand after step, time, turn and idle. As printed, so that a resumed run decides alike.
@@ -85,11 +94,14 @@ void FixViEltoRecord::row_stands(const std::string& line) {
     std::getline(in, field, ',');
     if (!part.stands) rotor += atof(field.c_str());
   }
-  rule_->add(rotor);
+  phaseSum_ += rotor;
+  if (++rowsInPhase_ < rowsOfPhase_) return;
+  rule_->add(phaseSum_ / rowsOfPhase_);
+  phaseSum_ = rowsInPhase_ = 0;
 }
 
 bool FixViEltoRecord::known() {
-  if (rowsOfTurn_ == 0 || (update->ntimestep - start_) / every_ % rowsOfTurn_ != 0) return false;
+  if (rowsOfPart_ == 0 || (update->ntimestep - start_) / every_ % rowsOfPart_ != 0) return false;
   int done = rule_ && rule_->known();
   MPI_Bcast(&done, 1, MPI_INT, 0, world);
   return done != 0;
@@ -106,27 +118,27 @@ void FixViEltoRecord::post_run() {
 std::string FixViEltoRecord::what_is_known() const {
   const vielto::Look& l = rule_->last();
   const double asked = 100 * rule_->target(), known = 100 * l.relative;
-  const int turns = rule_->turns();
+  const double parts = turnParts_, turns = rule_->turns() / parts;
   char text[400];
   const auto say = [&](const char* format, auto... values) {
     snprintf(text, sizeof text, format, values...);
     return std::string(text);
   };
   if (rule_->known())
-    return say("mean power known to %.2g %% (asked for: %.2g %%) from the last %d of %d turns", known, asked,
-               l.part.count, turns);
-  const std::string start = say("Warning: after %d turns the mean power is not known to %.2g %%: ", turns, asked);
+    return say("mean power known to %.2g %% (asked for: %.2g %%) from the last %g of %g turns", known, asked,
+               l.part.count / parts, turns);
+  const std::string start = say("Warning: after %g turns the mean power is not known to %.2g %%: ", turns, asked);
   if (l.part.verdict == vielto::Steadiness::too_few_turns) return start + "too few turns; raise turns";
   if (l.part.verdict == vielto::Steadiness::start_up_reaches_limit)
     return start + "the start-up still shows; raise turns";
   if (l.part.verdict == vielto::Steadiness::trend)
-    return start +
-           say("the torque still drifts by %+.2g %% of its mean a turn; raise turns", 100 * l.part.slope / l.mean.mean);
+    return start + say("the torque still drifts by %+.2g %% of its mean a turn; raise turns",
+                       100 * l.part.slope * parts / l.mean.mean);
   if (!(std::fabs(l.mean.mean) > 0)) return start + "it is zero";
   if (l.relative <= rule_->target())
-    return start + say("%.2g %%, but on %.0f effective samples, or with a drift, or for one turn only; raise turns",
+    return start + say("%.2g %%, but on %.0f effective samples, or with a drift, or for one look only; raise turns",
                        known, l.mean.effective_samples);
-  return start + say("%.2g %%; some %.0f turns would do", known, l.turns_needed);
+  return start + say("%.2g %%; some %.0f turns would do", known, std::ceil(l.turns_needed / parts));
 }
 
 int FixViEltoRecord::read_each(const char* name) {
@@ -297,6 +309,7 @@ std::string FixViEltoRecord::header_end() {
   char speed[40];
   snprintf(speed, sizeof speed, "# speed=%.10g\n", speed_);
   std::string text = speed;
+  if (turnParts_ > 1) text += "# turn_parts=" + std::to_string(turnParts_) + "\n";
   for (const bool stands : {false, true}) {
     std::string names;
     for (const Part& part : parts_)

@@ -14,9 +14,10 @@
        energy on|off         energy accounts (columns work_J ... ); default off
        turns T               length of the run in turns, for the progress line; 0: no progress line
 
-     fix_modify ID until U ROWS    end the run at the first turn after which the mean rotor torque of the steady turns
-   is known to the relative standard uncertainty U (postproc/core/stopping_rule.h); a turn has ROWS rows. Says at the
-   end of a run how well it is known, or why it cannot be.
+     fix_modify ID until U ROWS [PARTS]    end the run at the first turn after which the mean rotor torque of the steady
+   turns is known to the relative standard uncertainty U (postproc/core/stopping_rule.h); a turn has ROWS rows. A
+   machine that looks the same after 1/PARTS of a turn may end there, and the record says so (`# turn_parts`). Says at
+   the end of a run how well it is known, or why it cannot be.
 
    Lines `# turning=` and `# standing=` of the file name the parts of both kinds.
    Torque columns: torque that the part exerts on the grains about the axis in the direction of rotation (positive: the
@@ -85,7 +86,9 @@ class FixViEltoRecord : public FixViEltoRows {
   double lastRotor_ = 0, lastStanding_ = 0;
   bool motionChecked_ = false;
 
-  int rowsOfTurn_ = 0;                          // 0: the run has its length
+  int rowsOfPart_ = 0, turnParts_ = 1;  // 0: the run has its length
+  int rowsOfPhase_ = 1, rowsInPhase_ = 0;
+  double phaseSum_ = 0;
   std::unique_ptr<vielto::StoppingRule> rule_;  // on processor 0
 };
 

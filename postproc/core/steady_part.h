@@ -32,8 +32,10 @@ struct SteadyPart {
   double slope_p = 1;  // probability of such a slope in a steady signal
 };
 
+constexpr int kPhases = 72;  // of 5 degrees: a torque over the turn is kept as means over these
 constexpr double kSteadyTestLevel = 0.05;
 constexpr int kLeastAveragedTurns = 3;
+constexpr int kLeastPartTurns = 2;  // where a part of a turn is what repeats, and is the turn of this file
 
 // d that minimises MSER(d), 0 <= d <= most.
 int mser_truncation(const std::vector<double>& turn_means, int most);

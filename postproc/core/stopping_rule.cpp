@@ -16,9 +16,9 @@ double upper_90(double dof) {
 
 }  // namespace
 
-Look look(const std::vector<double>& signal, int period, double target) {
+Look look(const std::vector<double>& signal, int period, double target, int least) {
   Look l;
-  l.part = find_steady_part(signal, period);
+  l.part = find_steady_part(signal, period, least);
   if (l.part.verdict == Steadiness::too_few_turns) return l;
   const std::vector<double> kept(signal.begin() + static_cast<std::ptrdiff_t>(l.part.first) * period, signal.end());
   l.mean = mean_uncertainty(kept, period);
@@ -34,7 +34,7 @@ Look look(const std::vector<double>& signal, int period, double target) {
 void StoppingRule::add(double value) {
   signal_.push_back(value);
   if (signal_.size() % static_cast<std::size_t>(period_) != 0) return;
-  last_ = look(signal_, period_, target_);
+  last_ = look(signal_, period_, target_, least_);
   precise_ = last_.precise ? precise_ + 1 : 0;
   steady_ = last_.steady ? steady_ + 1 : 0;
   known_ = steady_ >= 2 && precise_ >= std::max(2, turns() / kShareOfLooks);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // When the steady mean of a signal that repeats with the turn is known well enough to end the run.
 //
-// Looked at after each whole turn. The mean is known when it is steady in the last two looks and precise in those of
+// Looked at after each whole turn; of a machine that looks the same after a part of a turn, after each part, which then
+// is the turn of all that follows. The mean is known when it is steady in the last two looks and precise in those of
 // the last quarter of the turns (two at least).
 //   steady    the turns kept show no start-up and no trend (steady_part.h), and the straight line through their means
 //             moves by at most target |mean| from their middle to their end, so that a trend too small to show cannot
@@ -41,12 +42,13 @@ struct Look {
 };
 
 // `signal` holds whole turns of `period` values. Errors: as find_steady_part.
-Look look(const std::vector<double>& signal, int period, double target);
+Look look(const std::vector<double>& signal, int period, double target, int least = kLeastAveragedTurns);
 
 class StoppingRule {
  public:
-  // target > 0: relative standard uncertainty.
-  StoppingRule(int period, double target) : period_(period), target_(target) {}
+  // target > 0: relative standard uncertainty; of `least` >= 3 turns.
+  StoppingRule(int period, double target, int least = kLeastAveragedTurns)
+      : period_(period), target_(target), least_(least) {}
 
   void add(double value);  // the next of the signal
   bool known() const { return known_; }
@@ -57,6 +59,7 @@ class StoppingRule {
  private:
   int period_;
   double target_;
+  int least_;
   std::vector<double> signal_;
   Look last_;
   int steady_ = 0, precise_ = 0;  // looks in a row

@@ -39,8 +39,8 @@ SteadyTorque steady_torque(const ScriptTorque& torque, const std::string& path, 
       fmt::format("{}: {} whole turns of {:.0f} samples, {} averaged from turn {} on; torque {:.6g} N m, u {:.2g} N m",
                   path, sampled.turns, sampled.samples_per_turn, result.turns.count, result.turns.first + 1,
                   result.mean.mean, result.mean.u));
-  const auto from = sampled.signal.begin() + static_cast<std::ptrdiff_t>(result.turns.first) * kPhases;
-  if (const auto lone = lone_value({from, from + static_cast<std::ptrdiff_t>(result.turns.count) * kPhases}))
+  const std::vector<double>& signal = sampled.signal;
+  if (const auto lone = lone_value({signal.begin() + result.turns.begin(), signal.begin() + result.turns.end()}))
     said.push_back(fmt::format(
         "note: the torque near turn {:.2f} alone moves the mean from {:.4g} to {:.4g} N m: look at these rows",
         result.turns.first + static_cast<double>(lone->index) / kPhases, lone->without, lone->mean));
@@ -73,7 +73,7 @@ ScriptRows torque_rows(const ScriptTorque& torque, const Observation& common) {
     TorqueRecord whole;  // its rotor is the one signal
     whole.parts = {{"rotor"}};
     whole.part = {loaded.signal};
-    const ShaftCurves curves = shaft_curves(whole, loaded.turns.first, loaded.turns.count);
+    const ShaftCurves curves = shaft_curves(whole, static_cast<int>(loaded.turns.begin()), loaded.turns.count);
     add("torque_ripple", curves.ripple, std::max(curves.ripple_u, kLeastRippleU));
   }
   return result;

@@ -37,12 +37,10 @@ void check_idle(const TorqueRecord& record, const AveragedTurns& turns) {
 
 // The interval of a turn that moves the mean of the rotor's torque most, as a warning where it moves it by too much.
 std::string lone_interval(const TorqueRecord& r, const Signal& rotor, const AveragedTurns& turns) {
-  const auto begin = rotor.begin() + static_cast<std::ptrdiff_t>(turns.first) * kPhases;
-  const auto end = begin + static_cast<std::ptrdiff_t>(turns.count) * kPhases;
-  const std::vector<double> averaged(begin, end);
+  const std::vector<double> averaged(rotor.begin() + turns.begin(), rotor.begin() + turns.end());
   const std::optional<LoneValue> lone = lone_value(averaged);
   if (!lone) return "";
-  const double turn = r.first_turn + (turns.first + static_cast<double>(lone->index) / kPhases) * r.turns_per_block;
+  const double turn = r.first_turn + (turns.first + static_cast<double>(lone->index) / turns.phases) * turns.turns;
   return fmt::format(
       "the torque near turn {:.2f} (step {:.0f}), {:.4g} N m, alone moves the mean torque from {:.4g} to {:.4g} N m: "
       "look "
@@ -126,42 +124,49 @@ void add_numbers(const TorqueRecordHeader& h, MixingPower& result) {
 }  // namespace
 
 MeanUncertainty mean_over(const std::vector<double>& signal, const AveragedTurns& turns) {
-  const auto begin = signal.begin() + static_cast<std::ptrdiff_t>(turns.first) * kPhases;
-  return mean_uncertainty(std::vector<double>(begin, begin + static_cast<std::ptrdiff_t>(turns.count) * kPhases),
-                          kPhases);
+  return mean_uncertainty(std::vector<double>(signal.begin() + turns.begin(), signal.begin() + turns.end()),
+                          turns.phases);
 }
 
 AveragedTurns steady_turns(const std::string& path, int first_turn, const std::vector<double>& signal, int asked,
-                           int block) {
-  const int turns = static_cast<int>(signal.size()) / kPhases * block;
-  const SteadyPart part = find_steady_part(signal, kPhases, std::max(kLeastAveragedTurns, (asked + block - 1) / block));
-  const auto refuse = [&](const std::string& why, int more) {
+                           double block) {
+  AveragedTurns result;
+  result.turns = block;
+  if (block < 1) result.phases = static_cast<int>(std::lround(kPhases * block));
+  const int least = block < 1 ? static_cast<int>(std::lround(kLeastPartTurns / block)) : kLeastAveragedTurns;
+  const double turns = static_cast<double>(signal.size()) / result.phases * block;
+  const int needed = std::max(least, static_cast<int>(std::ceil(asked / block - 1e-9)));
+  const SteadyPart part = find_steady_part(signal, result.phases, needed);
+  result.first = part.first, result.count = part.count, result.slope_p = part.slope_p;
+  const double steady = asked > 0 ? asked : needed * block;
+  const auto refuse = [&](const std::string& why, double more) {
     throw BadInput(path, 0,
-                   fmt::format("has {} whole turn{}{}, and {} steady ones are asked for", turns, turns == 1 ? "" : "s",
-                               why, asked),
-                   fmt::format("run at least {} more", more));
+                   fmt::format("has {:.4g} whole turn{}{}, and {:.4g} steady ones are asked for", turns,
+                               turns == 1 ? "" : "s", why, steady),
+                   fmt::format("run at least {:.4g} more", more));
   };
   double mean = 0;
   if (part.count > 0)
-    mean = std::accumulate(signal.begin() + static_cast<std::ptrdiff_t>(part.first) * kPhases, signal.end(), 0.0) /
-           (static_cast<double>(part.count) * kPhases);
+    mean = std::accumulate(signal.begin() + result.begin(), signal.begin() + result.end(), 0.0) /
+           (static_cast<double>(part.count) * result.phases);
   switch (part.verdict) {
     case Steadiness::too_few_turns:
-      refuse("", asked - turns);
+      refuse("", steady - turns);
       break;
     case Steadiness::start_up_reaches_limit:
-      refuse(fmt::format(", the start-up still shows in turn {}", first_turn + part.first * block),
+      refuse(fmt::format(", the start-up still shows in turn {:.4g}", first_turn + part.first * block),
              (part.first + 1) * block);
       break;
     case Steadiness::trend:
-      refuse(fmt::format(", the last {} still drift by {:+.2g} % a turn", part.count * block,
+      refuse(fmt::format(", the last {:.4g} still drift by {:+.2g} % a turn", part.count * block,
                          100 * part.slope / mean / block),
-             asked);
+             steady);
       break;
     case Steadiness::steady:
       break;
   }
-  return {part.first, part.count, part.slope / mean / block, part.slope_p};
+  result.slope = part.slope / mean / block;
+  return result;
 }
 
 MixingPower mixing_power(const TorqueRecord& loaded, const TorqueRecord* idle, int turns) {
@@ -170,15 +175,13 @@ MixingPower mixing_power(const TorqueRecord& loaded, const TorqueRecord* idle, i
     throw BadInput(loaded.path, 0, "is an idling record (fill 0)", "name a loaded record, and give this one to --idle");
   MixingPower result;
   result.header = h;
-  const int block = loaded.turns_per_block;
-  result.turns_total = loaded.turns * block;
+  const double block = loaded.turns_per_block;
+  result.turns_total = loaded.blocks * block;
   const double scale = h.whole_drum();
   const Signal rotor = loaded.rotor();
   const AveragedTurns averaged = steady_turns(loaded.path, loaded.first_turn, rotor, turns, block);
   result.averaged = averaged;
-  result.averaged.first *= block;
-  result.averaged.count *= block;
-  result.turn_first = loaded.first_turn + result.averaged.first;
+  result.turn_first = loaded.first_turn + averaged.turns_left_out();
 
   result.torque = scaled(mean_over(rotor, averaged), scale);
   if (!(result.torque.mean > 0))
@@ -218,7 +221,9 @@ MixingPower mixing_power(const TorqueRecord& loaded, const TorqueRecord* idle, i
     for (std::size_t k = 0; k < kLosses.size(); ++k)
       (*result.losses)[k] = result.power.mean * (end.losses[k] - begin.losses[k]) / (end.work - begin.work);
   }
-  result.curves = shaft_curves(loaded, averaged.first, averaged.count);
+  // The last whole turns, or blocks of turns, of what is averaged.
+  const int turning = averaged.count * averaged.phases / kPhases;
+  result.curves = shaft_curves(loaded, static_cast<int>(averaged.end()) - turning * kPhases, turning);
   result.quality = run_quality(loaded, averaged, result.torque, result.curves);
   return result;
 }

@@ -38,11 +38,18 @@ constexpr double kMostSpeedDifference = 1e-3;  // loaded to idling record
 constexpr double kMostMassDifference = 0.02;   // of the mass asked for; a run of few large grains is half a grain off
 constexpr double kFewSamples = 10;             // effective samples below which u is uncertain itself
 
-// The turns averaged: `first` of the record's whole turns left out, `count` kept.
+// What is averaged: `first` of the record's blocks left out, `count` kept, each of `phases` values and `turns` turns.
 struct AveragedTurns {
   int first = 0, count = 0;
-  double slope = 0;    // of the kept turn means, per turn, over their mean
+  int phases = kPhases;
+  double turns = 1;
+  double slope = 0;    // of the kept means, per turn, over their mean
   double slope_p = 1;  // probability of such a slope in a steady signal
+
+  std::ptrdiff_t begin() const { return static_cast<std::ptrdiff_t>(first) * phases; }  // in values of a signal
+  std::ptrdiff_t end() const { return begin() + static_cast<std::ptrdiff_t>(count) * phases; }
+  double turns_left_out() const { return first * turns; }
+  double turns_kept() const { return count * turns; }
 };
 
 struct RunQuality {
@@ -60,8 +67,8 @@ struct RunQuality {
 
 struct MixingPower {
   TorqueRecordHeader header;
-  int turns_total = 0;
-  int turn_first = 0;  // turns since the start of the rotation when the average begins
+  double turns_total = 0;
+  double turn_first = 0;  // turns since the start of the rotation when the average begins
   AveragedTurns averaged;
   MeanUncertainty torque;                       // whole drum, N m
   MeanUncertainty power;                        // W
@@ -79,15 +86,16 @@ struct MixingPower {
   RunQuality quality;
 };
 
-// The steady turns of a signal of kPhases values a turn, `asked` at least; the record began at turn `first_turn`.
+// The steady turns of a signal in blocks of `block` turns, `asked` turns at least and not below kLeastAveragedTurns
+// blocks, of parts of a turn kLeastPartTurns turns; the record began at turn `first_turn`.
 // Errors: BadInput naming `path` if there are not that many; it says how many more to run.
 AveragedTurns steady_turns(const std::string& path, int first_turn, const std::vector<double>& signal, int asked,
-                           int block = 1);
+                           double block = 1);
 
-// Mean of a signal of kPhases values a turn over these turns.
+// Mean of a signal over these turns.
 MeanUncertainty mean_over(const std::vector<double>& signal, const AveragedTurns& turns);
 
-// `turns` asked for, at least 3.
+// `turns` asked for; 0: as many as steady_turns needs.
 MixingPower mixing_power(const TorqueRecord& loaded, const TorqueRecord* idle, int turns);
 
 }  // namespace vielto

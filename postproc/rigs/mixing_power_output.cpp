@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 
 #include "core/csv.h"
@@ -22,6 +23,9 @@ Json or_null(const std::optional<MeanUncertainty>& m, double MeanUncertainty::*m
 }
 
 Json or_null(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
+
+// Turns, most often whole ones.
+Json counted(double turns) { return turns == std::floor(turns) ? Json(static_cast<long>(turns)) : Json(turns); }
 
 }  // namespace
 
@@ -59,9 +63,9 @@ Json power_json(const MixingPower& p) {
       {"slice", h.slice},
       {"paddles", h.paddles},
       {"seed", h.seed},
-      {"turns_total", p.turns_total},
-      {"turns_averaged", p.averaged.count},
-      {"turn_first", p.turn_first},
+      {"turns_total", counted(p.turns_total)},
+      {"turns_averaged", counted(p.averaged.turns_kept())},
+      {"turn_first", counted(p.turn_first)},
       {"stationary", true},  // a record that is not is refused
       {"drift_per_turn", p.averaged.slope},
       {"drift_probability", p.averaged.slope_p},
@@ -70,7 +74,7 @@ Json power_json(const MixingPower& p) {
       {"torque_u95_Nm", p.torque.u95()},
       {"degrees_of_freedom", p.torque.dof},
       {"effective_samples", p.torque.effective_samples},
-      {"correlation_time_turns", p.torque.correlation_time / kPhases},
+      {"correlation_time_turns", p.torque.correlation_time * p.averaged.turns / p.averaged.phases},
       {"power_loaded_W", or_null(p.loaded, &MeanUncertainty::mean)},
       {"power_loaded_u_W", or_null(p.loaded, &MeanUncertainty::u)},
       {"power_idle_W", or_null(p.idle, &MeanUncertainty::mean)},
@@ -103,8 +107,11 @@ std::string power_table(const MixingPower& p) {
   const RunQuality& q = p.quality;
   ResultTable table(q.warnings, 34);
   table.text(fmt::format("{}, seed {}", h.what_ran(), h.seed));
-  table.text(fmt::format("steady turns {} to {}: {} of {} averaged, {} left out as start-up", p.turn_first + 1,
-                         p.turn_first + p.averaged.count, p.averaged.count, p.turns_total, p.averaged.first));
+  const double kept = p.averaged.turns_kept();
+  // Parts of a turn have no number of their own: said by the turns done.
+  const double from = p.averaged.turns < 1 ? p.turn_first : p.turn_first + 1;
+  table.text(fmt::format("steady turns {:.10g} to {:.10g}: {:.10g} of {:.10g} averaged, {:.10g} left out as start-up",
+                         from, p.turn_first + kept, kept, p.turns_total, p.averaged.turns_left_out()));
   table.heading("whole drum");
   const auto line = [&](const std::string& name, const MeanUncertainty& m, const char* unit) {
     table.line(name, m.mean, m.u, unit);

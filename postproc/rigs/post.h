@@ -17,7 +17,7 @@ namespace vielto {
 struct PostInput {
   std::string record;
   std::string idle;  // record of the empty machine, for a rig that takes one; may be empty
-  int turns = kLeastAveragedTurns;
+  int turns = 0;     // steady ones asked for; 0: as many as an average needs
   TestLabel label;
 
   // The run folder. Empty: where the program was started.

@@ -17,10 +17,10 @@ void draw_torque(const TorqueRecord& record, const MixingPower& power, const std
   for (double& value : torque) value *= scale;
   std::vector<double> time;
   for (std::size_t i = 0; i < torque.size(); ++i)
-    time.push_back(start + (static_cast<double>(i) + 0.5) / kPhases * block_time);
+    time.push_back(start + (static_cast<double>(i) + 0.5) / record.block_phases() * block_time);
   // Turn means as stairs.
   std::vector<double> stairs_time, stairs;
-  const std::vector<double> means = turn_means(torque, kPhases);
+  const std::vector<double> means = turn_means(torque, record.block_phases());
   for (std::size_t t = 0; t < means.size(); ++t)
     for (const double end : {0.0, 1.0}) {
       stairs_time.push_back(start + (static_cast<double>(t) + end) * block_time);
@@ -28,7 +28,7 @@ void draw_torque(const TorqueRecord& record, const MixingPower& power, const std
     }
   const auto [least, most] = std::minmax_element(torque.begin(), torque.end());
   const double low = std::min(0.0, *least * 1.05), high = std::max(0.0, *most * 1.3);
-  const double from = power.turn_first * turn_time, to = from + power.averaged.count * turn_time;
+  const double from = power.turn_first * turn_time, to = from + power.averaged.turns_kept() * turn_time;
 
   Chart chart(fmt::format("{}: {:.2f} N m, mixing power {:.1f} W, standard uncertainty {:.1f} W",
                           record.header.what_ran(), power.torque.mean, power.power.mean, power.power.u));
@@ -39,7 +39,7 @@ void draw_torque(const TorqueRecord& record, const MixingPower& power, const std
   chart.line(of, time, torque, kBlue, 1.5F);
   chart.line("turn mean", stairs_time, stairs, kOrange, 4);
   chart.horizontal_axis("time since the rotor started / s", record.first_turn * turn_time,
-                        (record.first_turn + record.turns) * turn_time);
+                        start + record.blocks * block_time);
   chart.vertical_axis("torque / (N m)", low, high);
   chart.write(path);
 }

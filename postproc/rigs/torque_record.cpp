@@ -73,6 +73,10 @@ TorqueRecordHeader parse_header(const std::string& path, const Keys& keys) {
   h.dt = keys.number("dt", 0, true);
   h.dt_over_tc = keys.number("dt_over_tc", 0);
   h.interval_steps = keys.integer("interval_steps", 1);
+  if (keys.has("turn_parts")) h.turn_parts = keys.integer("turn_parts", 1);
+  if (kPhases % h.turn_parts != 0)
+    throw BadInput(path, keys.line("turn_parts"), fmt::format("key 'turn_parts' has the value {}", h.turn_parts),
+                   fmt::format("state a divisor of {}", kPhases));
   if (h.rig == "mixer")
     parse_mixer(path, keys, h);
   else
@@ -93,11 +97,12 @@ void halve(std::vector<double>& values, std::size_t width) {
   values.resize(pairs * width);
 }
 
-// Means over phases of the turn, one phase after another, each over the turns of a block.
+// Means over phases of the turn, one phase after another, each over the turns of a block, or blocks of a part of a
+// turn.
 class PhaseBins {
  public:
-  explicit PhaseBins(std::size_t signals) : sums_(signals, 0.0), block_(signals), curves_(signals) {
-    for (auto& signal : block_) signal.assign(kPhases, 0.0);
+  PhaseBins(std::size_t signals, int parts) : sums_(signals, 0.0), block_(signals), curves_(signals), parts_(parts) {
+    for (auto& signal : block_) signal.assign(phases(), 0.0);
   }
 
   // Part of an interval inside the current phase: `share` of a turn, one value per signal.
@@ -106,7 +111,7 @@ class PhaseBins {
     weight_ += share;
   }
   void next() {
-    const auto phase = static_cast<std::size_t>(count_++ % kPhases);
+    const std::size_t phase = static_cast<std::size_t>(count_++) % phases();
     for (std::size_t s = 0; s < sums_.size(); ++s) {
       block_[s][phase] += sums_[s] / weight_ / turns_per_block_;
       sums_[s] = 0;
@@ -115,32 +120,42 @@ class PhaseBins {
   }
   // Whether the phase just finished ends a block; then it is kept.
   bool ends_block() {
-    if (count_ % kPhases != 0 || ++turns_in_block_ < turns_per_block_) return false;
+    if (static_cast<std::size_t>(count_) % phases() != 0 || ++turns_in_block_ < turns_per_block_) return false;
     for (std::size_t s = 0; s < block_.size(); ++s) {
       curves_[s].insert(curves_[s].end(), block_[s].begin(), block_[s].end());
-      block_[s].assign(kPhases, 0.0);
+      block_[s].assign(phases(), 0.0);
     }
     turns_in_block_ = 0;
     ++blocks_;
     return true;
   }
-  bool full() const { return blocks_ == kMostBlocks; }
-  void halve_blocks() {
-    for (auto& curve : curves_) halve(curve, kPhases);
-    blocks_ /= 2;
-    turns_per_block_ *= 2;
+  bool full() const { return blocks_ == kMostBlocks - kMostBlocks % parts_; }
+  // Pairs of blocks to one, and returns 2; of parts of a turn, turns, and returns the number of parts.
+  int join_blocks() {
+    const int joined = parts_ > 1 ? parts_ : 2;
+    if (parts_ == 1) {
+      for (auto& curve : curves_) halve(curve, kPhases);
+      turns_per_block_ *= 2;
+    }
+    for (auto& curve : curves_) curve.resize(static_cast<std::size_t>(blocks_ / joined) * kPhases);
+    parts_ = 1;
+    blocks_ /= joined;
+    for (auto& signal : block_) signal.assign(kPhases, 0.0);
+    return joined;
   }
   long count() const { return count_; }  // of finished phases
   int blocks() const { return blocks_; }
-  int turns_per_block() const { return turns_per_block_; }
+  double turns_per_block() const { return static_cast<double>(turns_per_block_) / parts_; }
   std::vector<double>& curve(std::size_t s) { return curves_[s]; }
 
  private:
+  std::size_t phases() const { return static_cast<std::size_t>(kPhases / parts_); }  // of a block
+
   std::vector<double> sums_;
   std::vector<std::vector<double>> block_, curves_;  // of the block under way, of the finished ones
   double weight_ = 0;
   long count_ = 0;
-  int turns_in_block_ = 0, turns_per_block_ = 1, blocks_ = 0;
+  int parts_, turns_in_block_ = 0, turns_per_block_ = 1, blocks_ = 0;
 };
 
 class EnergyColumns {
@@ -245,7 +260,7 @@ class Reader {
         record_(record),
         progress_(path, record.header, file.columns()),
         kept_(kept_columns()),
-        bins_(kept_.size()),
+        bins_(kept_.size(), record.header.turn_parts),
         values_(kept_.size()),
         step_(file.columns().at("step")),
         grains_(file.columns().at("grains")),
@@ -310,16 +325,19 @@ class Reader {
     block_overlap_max_ = goes_on ? row[overlap_max_] : 0;
     if (energy_.recorded()) record_.energy.push_back(energy_.at(row));
     if (!bins_.full()) return;
-    bins_.halve_blocks();
+    const auto joined = static_cast<std::size_t>(bins_.join_blocks());
     std::vector<double>& most = record_.overlap_max;
-    for (std::size_t b = 0; b < most.size() / 2; ++b) most[b] = std::max(most[2 * b], most[2 * b + 1]);
-    most.resize(most.size() / 2);
-    for (std::size_t b = 0; 2 * b < record_.energy.size(); ++b) record_.energy[b] = record_.energy[2 * b];
-    record_.energy.resize((record_.energy.size() + 1) / 2);
+    for (std::size_t b = 0; b < most.size() / joined; ++b) {
+      const auto first = most.begin() + static_cast<std::ptrdiff_t>(joined * b);
+      most[b] = *std::max_element(first, first + static_cast<std::ptrdiff_t>(joined));
+    }
+    most.resize(most.size() / joined);
+    for (std::size_t b = 0; joined * b < record_.energy.size(); ++b) record_.energy[b] = record_.energy[joined * b];
+    if (!record_.energy.empty()) record_.energy.resize((record_.energy.size() - 1) / joined + 1);
   }
 
   void take_signals() {
-    record_.turns = bins_.blocks();
+    record_.blocks = bins_.blocks();
     record_.turns_per_block = bins_.turns_per_block();
     record_.intervals_per_turn = 1 / progress_.length();
     std::size_t s = 0;

@@ -15,19 +15,24 @@
 // are what the steadiness test and the autocorrelation of a mean are made for. The turns of a last block that is not
 // full are left out.
 //
+// A rotor that looks the same after a part of a turn says so by `turn_parts`: its blocks are these parts, so that a
+// short record need not end with a turn. At kMostBlocks they become turns.
+//
 // Errors: BadInput with file, line and column for a missing key or column, a cut-off line, a value that is not a finite
 // number, steps that do not follow each other by interval_steps, times or turns that do not follow the steps, no rows.
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <numeric>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "core/steady_part.h"
+
 namespace vielto {
 
-constexpr int kPhases = 72;        // of 5 degrees
 constexpr int kMostBlocks = 1024;  // even
 constexpr std::array<const char*, 5> kLosses = {"normal", "tangential", "sliding", "rolling", "twisting"};
 
@@ -48,6 +53,7 @@ struct TorqueRecordHeader {
   double dt_over_tc = 0;  // 1, of the stiffest mode
   double steps_per_turn = 0;
   double interval_steps = 0;
+  int turn_parts = 1;  // after which the machine looks the same; divides kPhases
   // Of a machine, each only if its record states it.
   std::optional<double> bulk_density;   // kg/m3
   std::optional<double> bulk_cohesion;  // Pa
@@ -80,8 +86,8 @@ struct TorqueRecord {
   std::string path;
   TorqueRecordHeader header;
   int first_turn = 0;  // turns since the start of the rotation when the first whole turn begins
-  int turns = 0;       // whole turns; of a long record: blocks of turns_per_block whole turns
-  int turns_per_block = 1;
+  int blocks = 0;      // whole turns; of a long record several each, of a rotor that repeats in a turn parts of it
+  double turns_per_block = 1;
   double start_step = 0;  // at which the rotation began
   double intervals_per_turn = 0;
 
@@ -93,12 +99,16 @@ struct TorqueRecord {
   std::vector<std::vector<double>> paddle;  // each paddle of a slice; empty for the whole drum
 
   std::vector<double> overlap_mean;  // 1, kPhases values a turn
-  std::vector<double> overlap_max;   // 1, one value a turn
-  // At the first row that ends at or after the start of each turn and the end of the last one; empty if not recorded.
+  std::vector<double> overlap_max;   // 1, one value a block
+  // At the first row that ends at or after the start of each block and the end of the last one; empty if not recorded.
   std::vector<EnergyAccounts> energy;
 
   double first_grains = 0, last_grains = 0;  // number of grains in the first and the last row
 
+  // Values of a block.
+  int block_phases() const {
+    return turns_per_block < 1 ? static_cast<int>(std::lround(kPhases * turns_per_block)) : kPhases;
+  }
   // Sum of the parts that turn; of those that stand.
   std::vector<double> rotor() const { return sum_of(true); }
   std::vector<double> standing() const { return sum_of(false); }

@@ -69,9 +69,7 @@ std::vector<double> turned(const std::vector<double>& curve, double angle) {
 
 std::vector<double> phase_mean(const std::vector<double>& signal, int first, int count) {
   std::vector<double> mean(kPhases, 0.0);
-  const double* values = signal.data() + static_cast<std::ptrdiff_t>(first) * kPhases;
-  for (int t = 0; t < count; ++t)
-    for (int i = 0; i < kPhases; ++i) mean[i] += values[t * kPhases + i] / count;
+  for (int i = first; i < first + count * kPhases; ++i) mean[i % kPhases] += signal[i] / count;
   return mean;
 }
 
@@ -108,7 +106,7 @@ void add_shares(const TorqueRecord& record, int first, int count, ShaftCurves& c
   curves.shares = shares_of(curves.paddle);
   std::array<std::vector<double>, kPaddleShares.size()> without;
   for (int t = 0; t < count; ++t) {
-    const auto shares = shares_of(left_out(curves.paddle, single_paddle(record, first + t, 1), count));
+    const auto shares = shares_of(left_out(curves.paddle, single_paddle(record, first + t * kPhases, 1), count));
     for (std::size_t k = 0; k < shares.size(); ++k) without[k].push_back(shares[k]);
   }
   for (std::size_t k = 0; k < without.size(); ++k) curves.shares_u[k] = jackknife(without[k]);
@@ -129,7 +127,7 @@ ShaftCurves shaft_curves(const TorqueRecord& record, int first, int count) {
   // T of each turn alone: their mean is T, as everything above is linear.
   const double n = count;
   std::vector<Curve> turns;
-  for (int t = 0; t < count; ++t) turns.push_back(rotor_curve(record, first + t, 1));
+  for (int t = 0; t < count; ++t) turns.push_back(rotor_curve(record, first + t * kPhases, 1));
   curves.rotor_u.assign(kPhases, 0.0);
   for (int i = 0; i < kPhases; ++i) {
     double squares = 0;

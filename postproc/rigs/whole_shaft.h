@@ -35,13 +35,13 @@ struct ShaftCurves {
   double ripple_noise = 0;  // root mean square of rotor_u over the mean of the rotor, 1
 };
 
-// Over `count` >= 2 turns of the record from its turn `first` on.
+// Over `count` >= 2 turns of the record from its value `first` on, in turn-blocks where it has some.
 ShaftCurves shaft_curves(const TorqueRecord& record, int first, int count);
 
 // curve(theta + angle) for all theta; angle in rad.
 std::vector<double> turned(const std::vector<double>& curve, double angle);
 
-// Mean over turns `first` ... `first + count - 1` at each phase.
+// Mean at each phase over `count` turns from value `first` on, which may lie inside a turn.
 std::vector<double> phase_mean(const std::vector<double>& signal, int first, int count);
 
 }  // namespace vielto

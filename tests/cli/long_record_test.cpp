@@ -50,7 +50,7 @@ TEST_F(LongRecord, BlocksAreMeansOfTurns) {
   const TorqueRecord shorter = read_torque_record((folder_ / "short/torque.csv").string());
   EXPECT_EQ(shorter.turns_per_block, 1);
   ASSERT_EQ(longer.turns_per_block, 2);
-  EXPECT_EQ(longer.turns, 750);
+  EXPECT_EQ(longer.blocks, 750);
   for (int block = 0; block < 5; ++block)
     for (int i = 0; i < kPhases; ++i) {
       const double mean =
@@ -74,11 +74,29 @@ TEST_F(LongRecord, PowerAndItsUncertaintyStayRight) {
   ASSERT_EQ(read.turns_per_block, 4);
   const MixingPower power = mixing_power(read, nullptr, 3);
   EXPECT_EQ(power.turns_total, 2600);
-  EXPECT_GT(power.averaged.count, 1290);
-  const double rows = power.averaged.count * record.rows_per_turn;
+  EXPECT_GT(power.averaged.turns_kept(), 1290);
+  const double rows = power.averaged.turns_kept() * record.rows_per_turn;
   const double u = record.noise * std::sqrt((1 + record.rho) / (1 - record.rho) / rows) * 22 / 4;
   EXPECT_NEAR(power.torque.u, u, 0.2 * u);
   EXPECT_NEAR(power.torque.mean, record.rotor_mean() * 22 / 4, 4 * u);
+}
+
+// Quarters of a turn become turns when there are kMostBlocks: 300 turns are read as if nothing had been said of parts.
+TEST_F(LongRecord, PartsOfATurnBecomeTurns) {
+  SyntheticRecord record = steady(300);
+  record.noise = 0.05;
+  record.energy = true;
+  record.write(folder_ / "turns");
+  record.turn_parts = 4;
+  record.write(folder_ / "parts");
+  const TorqueRecord turns = read_torque_record((folder_ / "turns/torque.csv").string());
+  const TorqueRecord parts = read_torque_record((folder_ / "parts/torque.csv").string());
+  EXPECT_EQ(parts.turns_per_block, 1);
+  ASSERT_EQ(parts.blocks, turns.blocks);
+  EXPECT_EQ(parts.part, turns.part);
+  EXPECT_EQ(parts.overlap_max, turns.overlap_max);
+  ASSERT_EQ(parts.energy.size(), turns.energy.size());
+  for (std::size_t k = 0; k < turns.energy.size(); ++k) EXPECT_EQ(parts.energy[k].work, turns.energy[k].work);
 }
 
 TEST_F(LongRecord, AskedTurnsAreTurnsNotBlocks) {

@@ -42,6 +42,40 @@ class PostCommand : public vielto_test::CommandTest {
   SyntheticRecord quiet_, idle_;
 };
 
+/* A start-up of half a turn, then 2.25 turns of a rotor that repeats in quarters: eleven quarters of which two hold the
+   start-up, over a fifth of the torque. Its curves are those of whole turns, whichever quarter they begin with. */
+TEST_F(PostCommand, ARecordInPartsOfATurnNeedNotEndWithATurn) {
+  SyntheticRecord parts = quiet_;
+  parts.turn_parts = 4;
+  parts.turns = 2.75;
+  parts.noise = 0.002;
+  parts.start_up = 0.3;
+  parts.start_up_turns = 0.1;
+  parts.write(folder_ / "run");
+  ASSERT_EQ(post("run"), 0) << err_;
+  const json p = power();
+  EXPECT_EQ(p["turns_total"], 2.75);
+  EXPECT_EQ(double(p["turn_first"]) + double(p["turns_averaged"]), 2.75);
+  EXPECT_GE(double(p["turn_first"]), 0.5);
+  EXPECT_LE(double(p["turn_first"]), 0.75);
+  EXPECT_NEAR(p["torque_Nm"], 4.125, 4 * double(p["torque_u_Nm"]) + 0.3 * std::exp(-5.0) * 22 / 4);
+  const double half = kPi / 72;
+  EXPECT_NEAR(p["torque_ripple"], 0.02 * std::sin(half) / half / 4.125, 3 * double(p["torque_ripple_u"]));
+  EXPECT_NE(out_.find("of 2.75 averaged"), std::string::npos) << out_;
+  // without the key, three whole turns are needed and two are there
+  parts.turn_parts = 1;
+  parts.write(folder_ / "run");
+  expect_refusal("run", "run/torque.csv: has 2 whole turns");
+}
+
+TEST_F(PostCommand, PartsThatPhasesReachOverAreRefused) {
+  quiet_.turn_parts = 5;
+  quiet_.write(folder_ / "run");
+  expect_refusal("run", "run/torque.csv:");
+  EXPECT_NE(err_.find("turn_parts"), std::string::npos) << err_;
+  EXPECT_NE(err_.find("divisor of 72"), std::string::npos) << err_;
+}
+
 // Slice: 4 * 0.15 + 0.1 + 0.05 = 0.75 N m; whole shaft times 22/4: 4.125 N m. Records are printed with nine digits.
 TEST_F(PostCommand, PowerAndNumbersOfASteadyRecord) {
   quiet_.write(folder_ / "run");

@@ -67,12 +67,13 @@ struct Outcome {
   double last_turn = 0;  // root mean square of (mean - that of the last turn)/true
 };
 
-Outcome outcome(double truth, const std::function<Record(Random&)>& make, int most = kMostTurns) {
+Outcome outcome(double truth, const std::function<Record(Random&)>& make, int most = kMostTurns,
+                int least = vielto::kLeastAveragedTurns) {
   Random random(11);
   Outcome o;
   for (int r = 0; r < kRepeats; r++) {
     const Record record = make(random);
-    vielto::StoppingRule rule(kPeriod, kTarget);
+    vielto::StoppingRule rule(kPeriod, kTarget, least);
     for (int i = 0; i < most * kPeriod && !rule.known(); i++) rule.add(record(i));
     if (!rule.known()) continue;
     const vielto::MeanUncertainty& mean = rule.last().mean;
@@ -89,6 +90,7 @@ Outcome outcome(double truth, const std::function<Record(Random&)>& make, int mo
 struct Case {
   std::string name;
   double rho, turns, start_up;
+  int least = vielto::kLeastAveragedTurns;
 };
 void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
 
@@ -98,22 +100,28 @@ class StoppingRule : public testing::TestWithParam<Case> {};
    below the shares stated there. The error of the mean is below the target in root mean square. */
 TEST_P(StoppingRule, EndsWithTheMeanKnown) {
   const Case c = GetParam();
-  const Outcome o = outcome(1, [&](Random& random) -> Record {
-    return [&c, noise = noisy(c.rho, c.turns, random)](int i) {
-      return noise(i) + c.start_up * std::exp(-i / (1.5 * kPeriod));
-    };
-  });
+  const Outcome o = outcome(
+      1,
+      [&](Random& random) -> Record {
+        return [&c, noise = noisy(c.rho, c.turns, random)](int i) {
+          return noise(i) + c.start_up * std::exp(-i / (1.5 * kPeriod));
+        };
+      },
+      kMostTurns, c.least);
   EXPECT_GT(o.ended, 0.98);
   EXPECT_GT(o.covered, 0.83);
   EXPECT_LT(o.error, kTarget);
-  EXPECT_GE(o.turns, c.turns);            // no shorter than the noise asks for
-  EXPECT_LT(o.turns, 2.5 * c.turns + 6);  // the upper limit of u costs turns, but no more than this
+  EXPECT_GE(o.turns, c.turns);                          // no shorter than the noise asks for
+  EXPECT_LT(o.turns, 2.5 * c.turns + 6 + c.least - 3);  // the upper limit of u costs turns, but no more than this
 }
 
 INSTANTIATE_TEST_SUITE_P(Noise, StoppingRule,
                          testing::Values(Case{"WhiteShort", 0, 4, 0}, Case{"WhiteLong", 0, 20, 0},
                                          Case{"CorrelatedShort", 0.8, 4, 0}, Case{"CorrelatedLong", 0.8, 20, 0},
-                                         Case{"AlmostATurn", 0.92, 20, 0}, Case{"StartUp", 0.8, 8, 0.3}),
+                                         Case{"AlmostATurn", 0.92, 20, 0}, Case{"StartUp", 0.8, 8, 0.3},
+                                         // quarters of a turn, of which eight are averaged at least
+                                         Case{"Quarters", 0.8, 2, 0, 8}, Case{"QuartersAlmostATurn", 0.92, 20, 0, 8},
+                                         Case{"QuartersAfterAStartUp", 0.8, 6, 0.8, 8}),
                          [](const auto& one) { return one.param.name; });
 
 // Bursts: skew, and a variance that comes in with the rare long ramps, so that the rule does worse; bounds as above.
@@ -147,6 +155,14 @@ TEST(StoppingRule, EndsAConstantAfterFourTurns) {
   for (; !rule.known() && i < 1000; i++) rule.add(5 + std::cos(2 * M_PI * i / kPeriod));
   EXPECT_EQ(i, 4 * kPeriod);
   EXPECT_NEAR(rule.last().mean.mean, 5, 1e-12);
+}
+
+// Quarters: eight, and one for the second look.
+TEST(StoppingRule, EndsAConstantAfterNineQuarters) {
+  vielto::StoppingRule rule(kPeriod, kTarget, 8);
+  int i = 0;
+  for (; !rule.known() && i < 1000; i++) rule.add(5 + std::cos(2 * M_PI * i / kPeriod));
+  EXPECT_EQ(i, 9 * kPeriod);
 }
 
 // White noise of one value a turn, standard deviation 0.4 about 1: u = target after (0.4/0.02)^2 = 400 turns.

@@ -290,6 +290,18 @@ TEST(MixerMesh, StaysSmall) {
   EXPECT_EQ(mixer({{"slicePaddles", "0"}}).number("paddleMeshes"), 1);
 }
 
+// Four paddles at 0, 90, 180, 270 degrees look the same after a quarter turn; two at 0 and 90 only after a whole one.
+TEST(MixerTurn, FallsIntoPartsAfterWhichASliceLooksTheSame) {
+  EXPECT_EQ(mixer().number("turnParts"), 4);
+  EXPECT_EQ(mixer({{"slicePaddles", "8"}}).number("turnParts"), 4);
+  EXPECT_EQ(mixer({{"slicePaddles", "6"}}).number("turnParts"), 1);
+  EXPECT_EQ(mixer({{"slicePaddles", "2"}}).number("turnParts"), 1);
+  EXPECT_EQ(mixer({{"slicePaddles", "2"}, {"paddleAngleStep", "180"}}).number("turnParts"), 2);
+  EXPECT_EQ(mixer({{"paddleAngleStep", "-90"}}).number("turnParts"), 4);
+  EXPECT_EQ(mixer({{"paddleHanding", "alternating"}}).number("turnParts"), 1);
+  EXPECT_EQ(mixer({{"slicePaddles", "0"}}).number("turnParts"), 1);
+}
+
 TEST(MixerInput, ThatMakesNoMixerIsRefused) {
   EXPECT_NE(refusal({{"slicePaddles", "1"}}).find("slicePaddles"), std::string::npos);
   EXPECT_NE(refusal({{"slicePaddles", "2.5"}}).find("whole number"), std::string::npos);

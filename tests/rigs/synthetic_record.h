@@ -21,6 +21,7 @@ struct SyntheticRecord {
   std::vector<double> angles = {0, 90, 180, 270};  // deg
   double angle_step = 90;                          // deg
   double rows_per_turn = 72;
+  int turn_parts = 1;
   int steps_per_row = 50;
   double turns = 10;
   double start = 0;  // turns of rotation before the first row
@@ -95,6 +96,7 @@ inline std::string SyntheticRecord::text() const {
       {"paddle_handing", "uniform"},
       {"paddle_angle_step_deg", number(angle_step)},
   };
+  if (turn_parts > 1) header.emplace_back("turn_parts", number(turn_parts));
   std::string out;
   for (auto& [key, value] : header) {
     const auto other = keys.find(key);

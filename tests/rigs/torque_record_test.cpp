@@ -86,7 +86,7 @@ TEST_F(TorqueRecord, RowsOfOnePhaseEachAreKeptAsTheyAre) {
   SyntheticRecord synthetic;
   synthetic.turns = 3;
   const auto record = read(synthetic);
-  ASSERT_EQ(record.turns, 3);
+  ASSERT_EQ(record.blocks, 3);
   ASSERT_EQ(record.paddle.size(), 4u);
   for (int i = 0; i < 3 * vielto::kPhases; ++i) {
     const double from = i / 72.0, to = (i + 1) / 72.0;
@@ -105,7 +105,7 @@ TEST_F(TorqueRecord, RowsThatReachOverPhasesCountByTheirShareOfTime) {
   synthetic.rows_per_turn = 500;
   synthetic.turns = 3;
   const auto record = read(synthetic);
-  ASSERT_EQ(record.turns, 3);
+  ASSERT_EQ(record.blocks, 3);
   EXPECT_NEAR(mean(record.paddle[0]), 0.15, 1e-9);
   // A phase is 5 degrees: the mean of the swing's cosine over it, off by half a row's change at most: 0.02 * 2 pi/500
   // / 4.
@@ -121,7 +121,7 @@ TEST_F(TorqueRecord, LongRowsThatDoNotDivideTheTurnKeepTheMeanOfLinearGrowth) {
   synthetic.paddle_swing = 0;
   synthetic.drift = 0.36;  // rotor torque grows by 0.36 N m a turn; a row's mean is its middle
   const auto record = read(synthetic);
-  ASSERT_EQ(record.turns, 4);
+  ASSERT_EQ(record.blocks, 4);
   for (int t = 0; t < 4; ++t) {
     const auto begin = record.part[0].begin() + t * vielto::kPhases;
     const double turn_mean = std::accumulate(begin, begin + vielto::kPhases, 0.0) / vielto::kPhases;
@@ -137,7 +137,7 @@ TEST_F(TorqueRecord, TurnsThatAreNotWholeAreLeftOutAtBothEnds) {
   synthetic.paddle_swing = 0;
   const auto record = read(synthetic);
   EXPECT_EQ(record.first_turn, 1);
-  EXPECT_EQ(record.turns, 3);
+  EXPECT_EQ(record.blocks, 3);
   ASSERT_EQ(record.part[0].size(), 3u * vielto::kPhases);
   EXPECT_NEAR(mean(record.part[0]), 0.6 + 2.5, 1e-8);
   ASSERT_EQ(record.overlap_max.size(), 3u);
@@ -296,7 +296,7 @@ TEST_F(TorqueRecord, IsReadAsAStream) {
     return usage.ru_maxrss;  // kB
   };
   const long before = peak();
-  EXPECT_EQ(vielto::read_torque_record(path_).turns, 3);
+  EXPECT_EQ(vielto::read_torque_record(path_).blocks, 3);
   EXPECT_LT(peak() - before, 5000);
 }
 

@@ -30,7 +30,7 @@ vielto::TorqueRecord slice(const std::vector<double>& degrees, double step, int 
   record.header.slice = static_cast<int>(degrees.size());
   record.header.paddles = 22;
   record.header.paddle_angle_step = step * kDegree;
-  record.turns = turns;
+  record.blocks = turns;
   const std::size_t size = static_cast<std::size_t>(turns) * kPhases;
   record.part[0].assign(size, 0.0);
   record.part[1].assign(size, 0.1);
@@ -127,10 +127,20 @@ TEST(WholeShaft, WholeDrumIsTakenAsItIs) {
   for (int i = 0; i < kPhases; ++i) EXPECT_NEAR(curves.rotor[i], 0.35 + 0.05 * std::cos(middle(i)), 1e-12);
 }
 
+// Two turns that begin with the second quarter of one are the same at each angle.
+TEST(WholeShaft, TurnsMayBeginInsideOne) {
+  const auto record = slice({0, 90, 180, 270}, 90, 3, 0.2, [](int) { return 0.05; });
+  const auto whole = vielto::shaft_curves(record, 0, 2), later = vielto::shaft_curves(record, kPhases / 4, 2);
+  for (int i = 0; i < kPhases; ++i) {
+    EXPECT_NEAR(later.paddle[i], whole.paddle[i], 1e-12) << i;
+    EXPECT_NEAR(later.rotor[i], whole.rotor[i], 1e-12) << i;
+  }
+}
+
 // Only the turns asked for count.
 TEST(WholeShaft, TurnsLeftOutDoNotCount) {
   const auto record = slice({0, 90, 180, 270}, 90, 4, 0.2, [](int t) { return t == 0 ? 1.0 : 0.05; });
-  EXPECT_NEAR(vielto::shaft_curves(record, 1, 3).ripple, 0.05 / (22 * 0.2 + 5.5 * 0.15), 1e-12);
+  EXPECT_NEAR(vielto::shaft_curves(record, kPhases, 3).ripple, 0.05 / (22 * 0.2 + 5.5 * 0.15), 1e-12);
 }
 
 // The swing b of turn t is random: the ripple is proportional to its mean, and the jackknife of a mean is the standard
@@ -155,7 +165,7 @@ TEST(WholeShaft, NoiseLeftInTheRippleIsNamed) {
   std::normal_distribution<double> normal;
   vielto::TorqueRecord record;
   const int turns = 8;
-  record.turns = turns;
+  record.blocks = turns;
   for (auto& part : record.part) part.assign(static_cast<std::size_t>(turns) * kPhases, 0.0);
   for (double& value : record.part[0]) value = 1 + 0.1 * normal(random);
   const auto curves = vielto::shaft_curves(record, 0, turns);

@@ -142,7 +142,8 @@ def yade_100k(folder, quick, pairs):
 def grid(folder, quick, pairs):
     """Core minutes of the 4 x 4 grid of speeds and fills in cases/mixer, 8 mm, 6 turns each, by the processor's clock.
 
-    `campaign_minutes` are those of studies/grid_8mm.csv, with its turns. The cost of a step is taken at the least and
+    `campaign_minutes` are those of studies/grid_8mm.csv, whose runs end when their power is known, with the turns that
+    they took. The cost of a step is taken at the least and
     the greatest fill and is linear in the fill between them; that of a turn is its steps times that."""
     speeds, fills, turns = (0.48, 0.85, 1.21, 1.58), (0.10, 0.15, 0.20, 0.25), 6
 
@@ -184,8 +185,8 @@ def grid(folder, quick, pairs):
     def minutes(runs):
         return sum(between(settle, f) + t * perTurn / n * between(step, f) for n, f, t in runs) / 60
 
-    with open(ROOT / "studies/grid_8mm.csv") as study:
-        campaign = [tuple(float(row[c]) for c in ("speed", "fill", "turns")) for row in csv.DictReader(study)]
+    with open(ROOT / "findings/power_of_the_mixer/grid_8mm.runs.csv") as runs:
+        campaign = [tuple(float(row[c]) for c in ("speed", "fill", "turns_total")) for row in csv.DictReader(runs)]
     return {
         "grid_8mm_core_minutes": {
             "minutes": minutes((n, fill, turns) for n in speeds for fill in fills),

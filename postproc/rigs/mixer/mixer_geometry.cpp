@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "rigs/torque_record.h"
+
 namespace vielto {
 namespace {
 
@@ -149,6 +151,17 @@ double distance_from_axis(const Triangle& t) {
 }
 
 // Least distance along the axis between the outer paddles and the end walls; infinite in a slice, which has none.
+/* Into how many equal parts a turn falls after each of which a slice looks as before, but for a shift along the shaft:
+   its paddles, all inclined the same way, stand at each of these angles equally often. 1 with end walls, and where a
+   record's phases would reach over two parts. */
+int turn_parts(const Mixer& m) {
+  if (!m.periodic || m.handing != "uniform") return 1;
+  for (int parts = std::min(m.paddles, kPhases); parts > 1; --parts)
+    if (kPhases % parts == 0 && m.paddles % parts == 0 && std::fabs(std::fabs(m.angle_step) * parts - 360) < 1e-9)
+      return parts;
+  return 1;
+}
+
 double end_gap(const Mixer& m, const Triangles& blades, const GeometryInput& input) {
   if (m.periodic) return INFINITY;
   const Measure extent = measure(blades);
@@ -231,6 +244,7 @@ RigGeometry mixer_geometry(GeometryInput& input) {
                {"paddleMeshes", fmt::format("{}", meshes)},
                {"paddleList", fmt::format("\"{}\"", list)},
                {"paddleAngles", fmt::format("\"{}\"", fmt::join(rotor.angles, " "))},
+               {"turnParts", fmt::format("{}", turn_parts(m))},
                {"meshedDrumVolume", fmt::format("{:.9g}", volume)},
                {"outlineVolume", fmt::format("{:.9g}", m.drum_length * section)}};  // of the whole drum
   g.notes.push_back(fmt::format("drum {:.4f} dm3 in {} chords, outline {:.4f} dm3 ({:.4f} dm3 for the whole drum)",
