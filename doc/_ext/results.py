@@ -86,7 +86,7 @@ def groups(rows, by):
 def shown(rows, what):
     """One cell: `what` as the directive's `show` has it behind the label."""
     if " ± " in what:
-        return " ± ".join(shown(rows, part) for part in what.split(" ± "))
+        return "\u00a0±\u00a0".join(shown(rows, part) for part in what.split(" ± "))
     words = what.split()
     if words == ["n"]:
         return str(len(rows))
@@ -106,7 +106,7 @@ def shown(rows, what):
     return (
         "–"
         if value != value
-        else re.sub(r"^-(?=[0.]*%?$)", "", format(value, form)).replace("-", "−").replace("%", " %")
+        else re.sub(r"^-(?=[0.]*%?$)", "", format(value, form)).replace("-", "−").replace("%", "\u00a0%")
     )
 
 

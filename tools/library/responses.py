@@ -251,9 +251,9 @@ def draw(path, table, observable, effect_files):
     plt = pictures.pyplot()
     effects = sorted({what for what, strength, *_ in table if strength})
     varies = [c for c in CONDITIONS if len({dict(at).get(c) for *_, at, _, _ in table}) > 1]
-    columns = 4
+    columns = 3
     rows = math.ceil(len(effects) / columns)
-    figure, axes = plt.subplots(rows, columns, figsize=(3.1 * columns, 2.3 * rows), squeeze=False)
+    figure, axes = plt.subplots(rows, columns, figsize=(2.6 * columns, 2.3 * rows), squeeze=False)
     places = sorted({at for *_, at, _, _ in table})
     for axis in axes.flat[len(effects) :]:
         axis.set_visible(False)
@@ -276,16 +276,16 @@ def draw(path, table, observable, effect_files):
                     color=f"C{k}",
                     label=label,
                 )
-        axis.set_title(effect, fontsize=10)
-        axis.set_xlabel(f"strength [{unit(effect_files, effect)}]", fontsize=8)
-        axis.set_ylabel(f"change of {observable} [%]", fontsize=8)
-        axis.tick_params(labelsize=8)
+        axis.set_title(f"{effect.replace('_', ' ')} [{unit(effect_files, effect)}]", fontsize=12)
+        axis.tick_params(labelsize=11)
+        axis.locator_params(nbins=4)
     handles = {}
     for axis in axes.flat:
         for handle, label in zip(*axis.get_legend_handles_labels()):
             handles.setdefault(label, handle)
-    figure.legend(handles.values(), handles.keys(), loc="lower center", ncol=4, fontsize=9, frameon=False)
-    figure.tight_layout(rect=(0, 0.12 / rows, 1, 1))
+    figure.legend(handles.values(), handles.keys(), loc="lower center", ncol=2, fontsize=12, frameon=False)
+    figure.suptitle(f"change of {observable.replace('_', ' ')} [%] over the strength", fontsize=13)
+    figure.tight_layout(rect=(0, 0.11 * math.ceil(len(handles) / 2) / rows, 1, 1))
     pictures.save(figure, path)
 
 

@@ -108,14 +108,15 @@ def draw(path, rows):
     plt = pictures.pyplot()
     shown = [row for row in reversed(rows) if row.label != "base"]
     conditions = sorted({(row.speed, row.fill) for row in shown})
-    figure, axis = plt.subplots(figsize=(7, 1.2 + 0.32 * len(shown)))
+    figure, axis = plt.subplots(figsize=(6.4, 1.2 + 0.34 * len(shown)))
     for k, row in enumerate(shown):
         colour = f"C{conditions.index((row.speed, row.fill))}"
         axis.errorbar(100 * row.change, k, xerr=100 * row.u_change, fmt="o", capsize=3, color=colour)
     axis.axvline(0, color="black", linewidth=0.8)
-    names = [f"{r.label}  (n {r.speed} 1/s, l {r.fill}, {r.runs} run{'s' if r.runs > 1 else ''})" for r in shown]
-    axis.set_yticks(range(len(shown)), names, fontsize=8)
-    axis.set_xlabel("change of the mixing power [%], bars: standard uncertainty")
+    names = [f"{r.label}  ({r.speed} 1/s, {r.fill})" for r in shown]
+    axis.set_yticks(range(len(shown)), names, fontsize=11)
+    axis.tick_params(axis="x", labelsize=11)
+    axis.set_title("change of the mixing power [%] (speed, fill)", fontsize=12, loc="right")
     axis.grid(axis="x", alpha=0.4)
     figure.tight_layout()
     pictures.save(figure, path)
