@@ -268,12 +268,19 @@ void add_closures(json& result, const std::vector<Scored>& cases) {
   // without a gap there is nothing to simulate again
   const auto wanted =
       std::count_if(strong.begin(), strong.end(), [](const Scored* c) { return c->verdict != Verdict::no_gap; });
-  const auto measured = std::count_if(strong.begin(), strong.end(), [](const Scored* c) {
-    return c->verdict != Verdict::no_gap && !c->answer["shrink"].is_null();
-  });
+  Pick simulated;
+  for (const Scored* c : strong)
+    if (c->verdict != Verdict::no_gap && !c->answer["shrink"].is_null()) simulated.push_back(c);
+  const auto measured = static_cast<std::ptrdiff_t>(simulated.size());
+  const auto placebo = [](const Pick& p) {
+    return closes(p, [](const Scored& c) { return mean_square(c, "placebo"); });
+  };
   add_pooled(result, "closure", strong, closure);
-  add_pooled(result, "placebo", strong,
-             [](const Pick& p) { return closes(p, [](const Scored& c) { return mean_square(c, "placebo"); }); });
+  add_pooled(result, "placebo", strong, placebo);
+  if (measured > 0 && measured < wanted) {
+    add_pooled(result, "closure_resimulated", simulated, closure);
+    add_pooled(result, "placebo_resimulated", simulated, placebo);
+  }
   result["closure_basis"] = wanted == 0          ? "no case was said to have a gap"
                             : measured == wanted ? "re-simulated"
                                                  : "predicted by the emulator where no re-simulation was made";

@@ -15,6 +15,7 @@
 //   closure        known, strong, pooled over cases: what `after` closes beyond recalibration over what the true effect
 //                  closes, each 1 - sqrt(sum after^2 / sum recalibrated^2); a verdict without an effect closes nothing
 //   placebo        the same for the placebo
+//   closure_resimulated, placebo_resimulated   of those cases alone whose tests were simulated again, if not all were
 //   brier          mean over all cases of sum_k (p_k - [k is true])^2
 //   where_f1       regions with q <= 0.05 against those the noise-free effect moves by more than 2 u
 // Errors: BadInput for a truth that is not what its seal says, or a case without an answer.

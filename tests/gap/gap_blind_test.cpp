@@ -206,6 +206,25 @@ TEST_F(GapBlind, ClosuresAreMeasuredWhereCasesWereSimulatedAgain) {
   const json s = score("simulated.json");
   EXPECT_EQ(s["closure_basis"], "re-simulated");
   EXPECT_NEAR(s["closure"], 0, 1e-12);
+  EXPECT_FALSE(s.contains("closure_resimulated"));
+  // one of them predicted only: the others' closure is stated by itself
+  for (const auto& entry : fs::directory_iterator(folder_ / "simulated")) {
+    json answer = json::parse(content(entry.path() / "diagnosis.json"));
+    if (answer["shrink"].is_null() || answer["verdict"] == "no_gap") continue;
+    answer["shrink_predicted"] = answer["shrink"];
+    answer["shrink"] = json();
+    std::ofstream(entry.path() / "diagnosis.json") << answer;
+    break;
+  }
+  ASSERT_EQ(run(fmt::format(
+                "cd '{}' && gap-score blind --answers simulated --sealed sealed/isolability.json --out simulated.json",
+                folder_.string())),
+            0)
+      << output_;
+  const json part = score("simulated.json");
+  EXPECT_EQ(part["closure_resimulated_n"], int(part["closure_n"]) - 2);  // nor the one without a gap
+  EXPECT_NEAR(part["closure_resimulated"], 0, 1e-12);
+  EXPECT_NEAR(part["placebo_resimulated"], 0, 1e-12);
   fs::remove_all(folder_ / "simulated");
 }
 

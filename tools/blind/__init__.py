@@ -5,12 +5,13 @@ A withheld case is a table of observations made from a law and effects that the 
 FOLDER/check/truth, its answer in FOLDER/answers.
 """
 from tools import command_line
-from tools.blind import count_answers, diagnose, hide, list_strong, robust
+from tools.blind import count_answers, diagnose, hide, list_strong, resimulate, robust
 
 COMMANDS = {
     "hide": hide,
     "diagnose": diagnose,
     "list-strong": list_strong,
+    "resimulate": resimulate,
     "count-answers": count_answers,
     "robust": robust,
 }

@@ -28,3 +28,9 @@ def answer(answers, case):
     if "verdict" not in given:
         raise BadInput(f"{path}: has no verdict; {MEND}")
     return given
+
+
+def strong(folder, answers):
+    """Names of the strong cases of one known effect that were not answered with "no gap": what can be simulated again."""
+    known = [t["case"] for t in truths(folder) if t["kind"] == "known" and t["level"] == "strong"]
+    return [case for case in known if answer(answers, case)["verdict"] != "no_gap"]

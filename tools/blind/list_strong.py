@@ -11,5 +11,4 @@ add_options = cases.add_options
 
 
 def work(options):
-    strong = [t["case"] for t in cases.truths(options.truths) if t["kind"] == "known" and t["level"] == "strong"]
-    print(*[case for case in strong if cases.answer(options.answers, case)["verdict"] != "no_gap"])
+    print(*cases.strong(options.truths, options.answers))
