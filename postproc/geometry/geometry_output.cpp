@@ -25,6 +25,7 @@
 #include <filesystem>
 #include <stdexcept>
 
+#include "core/bad_input.h"
 #include "core/csv.h"
 #include "geometry/stl.h"
 
@@ -98,12 +99,18 @@ std::string geometry_par(const RigGeometry& geometry, const GeometryInput& input
 
 void write_geometry(const RigGeometry& geometry, const GeometryInput& input, const std::string& folder) {
   const fs::path out(folder);
+  for (const std::string& file : geometry.inputs)
+    for (const Part& part : geometry.parts)
+      if (fs::weakly_canonical(file) == fs::weakly_canonical(out / (part.name + ".stl")))
+        throw BadInput(file, 0, fmt::format("would be overwritten by part {} that is made from it", part.name),
+                       "name another folder with --out");
   const bool made = fs::create_directories(out);
   try {
     fs::remove(out / "geometry.par");
     for (int i = 1; fs::remove(out / fmt::format("paddle_{}.stl", i)); ++i) {
     }
     for (const Part& part : geometry.parts) write_stl((out / (part.name + ".stl")).string(), part.name, part.triangles);
+    for (const auto& [name, text] : geometry.files) write_whole_file((out / name).string(), text);
     write_vtp(geometry, true, (out / "rotor.vtp").string());
     write_vtp(geometry, false, (out / "drum.vtp").string());
     write_whole_file((out / "geometry.par").string(), geometry_par(geometry, input));

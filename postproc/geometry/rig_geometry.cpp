@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 
 #include "core/bad_input.h"
 
@@ -40,6 +41,10 @@ const std::string& GeometryInput::choice(const std::string& name, const std::vec
     refuse(name, "unknown", fmt::format("state one of: {}", fmt::join(choices, ", ")));
   used_.push_back({name, value, true});
   return value;
+}
+
+std::string GeometryInput::file(const std::string& name) const {
+  return (std::filesystem::path(file_.path()).parent_path() / file_.text(name)).string();
 }
 
 void GeometryInput::refuse(const std::string& name, const std::string& what, const std::string& mend) const {

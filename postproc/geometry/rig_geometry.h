@@ -31,6 +31,9 @@ class GeometryInput {
   int count(const std::string& name, int least, int most);
   const std::string& choice(const std::string& name, const std::vector<std::string>& choices);
 
+  // A path of the parameter file: a relative one starts from its folder. Not part of geometry.par.
+  std::string file(const std::string& name) const;
+
   // Throws BadInput at the parameter's line, naming it and its value.
   [[noreturn]] void refuse(const std::string& name, const std::string& what, const std::string& mend) const;
 
@@ -53,6 +56,8 @@ struct RigGeometry {
   std::vector<Part> parts;
   std::vector<std::pair<std::string, std::string>> derived;  // name, value (quoted if it has blanks)
   std::vector<std::string> notes;                            // lines for the person at the terminal
+  std::vector<std::string> inputs;                           // files it was made from, which it must not overwrite
+  std::vector<std::pair<std::string, std::string>> files;    // further ones beside the meshes: name, text
 };
 
 }  // namespace vielto
