@@ -12,19 +12,24 @@
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <random>
 #include <set>
 #include <sstream>
 #include <string>
 #include <vector>
 
 #include "atom.h"
+#include "atom_vec.h"
 #include "comm.h"
 #include "core/bad_input.h"
+#include "domain.h"
 #include "engine/critical_time.h"
 #include "engine/law.h"
 #include "error.h"
+#include "fix.h"
 #include "force.h"
 #include "input.h"
+#include "modify.h"
 #include "script/clump.h"
 #include "script/law_command.h"
 #include "script/run_folder.h"
@@ -66,6 +71,8 @@ void ViEltoCommand::command(int narg, char** arg) {
     vielto::LawCommand(lmp).command(narg, arg);
   else if (what == "clump" && narg == 8)
     clump(narg, arg);
+  else if (what == "place" && narg == 11)
+    place(narg, arg);
   else if (what == "grains" && narg > 1 && narg % 2 == 0)
     grains(narg, arg);
   else if (what == "setup" && narg > 1)
@@ -75,7 +82,7 @@ void ViEltoCommand::command(int narg, char** arg) {
   else
     vielto::stop_all(lmp,
                      "vielto: unknown form of this command; use setup, error, half_period, words, repeat, include, "
-                     "property, pair_property, law, clump, grains or close");
+                     "property, pair_property, law, clump, place, grains or close");
 }
 
 void ViEltoCommand::half_period(int, char** arg) {
@@ -165,6 +172,68 @@ void ViEltoCommand::clump(int, char** arg) {
   snprintf(radius, sizeof radius, "%.12g", smallest);
   set_variable(&(name + "Radius")[0], radius);
   set_variable(&(name + "Spheres")[0], std::string(words).substr(9, std::string(words).find(" ntry") - 9).c_str());
+}
+
+void ViEltoCommand::place(int, char** arg) {
+  if (std::string(arg[3]) != "radii" || std::string(arg[7]) != "density" || std::string(arg[9]) != "seed")
+    vielto::stop_all(lmp, "vielto: write 'vielto place FILE N radii R1 R2 R3 density RHO seed S'");
+  const int count = force->inumeric(FLERR, arg[2]);
+  const double radii[3] = {force->numeric(FLERR, arg[4]), force->numeric(FLERR, arg[5]), force->numeric(FLERR, arg[6])};
+  const double density = force->numeric(FLERR, arg[8]);
+  if (!(count > 0 && density > 0 && radii[0] > 0 && radii[1] > 0 && radii[2] > 0))
+    vielto::stop_all(lmp, "vielto: place needs N, radii and a density > 0");
+  std::vector<double> places(3 * static_cast<std::size_t>(count));
+  std::string fault;
+  if (comm->me == 0) {
+    std::ifstream in(arg[1]);
+    std::string line;
+    if (!std::getline(in, line)) fault = std::string("vielto: cannot read ") + arg[1];
+    int there = 0;
+    for (; there < count && std::getline(in, line); there++) {
+      double* x = &places[3 * static_cast<std::size_t>(there)];
+      if (sscanf(line.c_str(), "%lf,%lf,%lf", x, x + 1, x + 2) != 3) break;
+    }
+    if (fault.empty() && there < count)
+      fault = "vielto: mass that cannot be placed: asked for " + std::to_string(count) + " grains, there is room for " +
+              std::to_string(there) + "; lower fill, mass or grainDiameter";
+  }
+  stop_if(fault);
+  MPI_Bcast(places.data(), static_cast<int>(places.size()), MPI_DOUBLE, 0, world);
+  std::vector<int> size(count, 1);
+  const int few = static_cast<int>(std::lround(count / 6.0));
+  std::fill_n(size.begin(), few, 0);
+  std::fill_n(size.rbegin(), few, 2);
+  std::mt19937 random(static_cast<std::mt19937::result_type>(force->inumeric(FLERR, arg[10])));
+  for (int i = count - 1; i > 0; i--) std::swap(size[i], size[random() % static_cast<unsigned>(i + 1)]);
+
+  const int before = atom->nlocal;
+  const bigint numbered = atom->natoms;
+  for (int i = 0; i < count; i++) {
+    double* const x = &places[3 * static_cast<std::size_t>(i)];
+    bool mine = true;
+    for (int d = 0; d < 3; d++) mine = mine && x[d] >= domain->sublo[d] && x[d] < domain->subhi[d];
+    if (!mine) continue;
+    atom->avec->create_atom(1, x);
+    const int k = atom->nlocal - 1;
+    atom->radius[k] = radii[size[i]];
+    atom->density[k] = density;
+    atom->rmass[k] = density * 4.0 / 3.0 * M_PI * std::pow(radii[size[i]], 3);
+    atom->tag[k] = static_cast<int>(numbered) + i + 1;
+  }
+  for (int m = 0; m < modify->nfix; m++)
+    if (modify->fix[m]->create_attribute) {
+      modify->fix[m]->pre_set_arrays();
+      for (int k = before; k < atom->nlocal; k++) modify->fix[m]->set_arrays(k);
+    }
+  const bigint mine = atom->nlocal;
+  MPI_Allreduce(&mine, &atom->natoms, 1, MPI_LMP_BIGINT, MPI_SUM, world);
+  if (atom->natoms != numbered + count)
+    vielto::stop_all(lmp, (std::string("vielto: a place of ") + arg[1] + " lies outside the box").c_str());
+  if (atom->map_style) {
+    atom->nghost = 0;
+    atom->map_init();
+    atom->map_set();
+  }
 }
 
 void ViEltoCommand::grains(int narg, char** arg) {

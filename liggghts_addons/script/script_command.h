@@ -32,6 +32,10 @@
                                                and with the volume of a sphere of diameter D (m); set variable NAME to the words
                                                of particletemplate/multisphere for them (nspheres ... use_density), NAMERadius
                                                to the smallest radius (m), NAMESpheres to their number
+     vielto place FILE N radii R1 R2 R3 density RHO seed S
+                                               make N grains of type 1 at the first N places x_m,y_m,z_m of FILE: round(N/6) of
+                                               the radii R1 and R3 each, the others R2, which is which by the seed. They are at
+                                               rest. The numbers of the grains do not depend on the processors
      vielto grains FILE [KEY VALUE ...]        write x_m,y_m,z_m,radius_m of every grain of type 1, in the order of their
                                                numbers, under lines # KEY=VALUE */
 // clang-format on
@@ -60,6 +64,7 @@ class ViEltoCommand : protected Pointers {
   void clump(int narg, char** arg);
   void set_variable(char* name, const char* value);
   void stop_if(const std::string& faultOnRankZero);
+  void place(int narg, char** arg);
   void grains(int narg, char** arg);
   void setup(int narg, char** arg);
   void repeat(int narg, char** arg);
