@@ -43,6 +43,11 @@ class Rig:
             return 0.0
 
 
+# Of one core of 2 GHz: the mixer of 8 mm grains takes 20 minutes, of 12 mm 4 (doc/reference/cost.md). Another rig has another
+# share of walls and of time that grain falls freely, so that this holds to a factor of two.
+SECONDS_OF_WORK = 4.5e-7
+
+
 class _Names(dict):
     """A -var that is not given is 0, as a column that a study has not."""
 

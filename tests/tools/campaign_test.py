@@ -57,6 +57,11 @@ mixer = {"rig": "mixer", "grainDiameter": "0.012"}
 assert abs(share(mixer, {**mixer, "slicePaddles": "0"}) - 22 / 4) < 1e-9
 assert abs(share(mixer, {**mixer, "grainDiameter": "0.006", "speed": "0.5"}) - 32) < 1e-9
 assert share({"rig": "repose"}, {"rig": "repose", "liftSpeed": "0.01"}) > 1.5
+# the mixer's two rows of doc/reference/cost.md, 20 and 3 to 4 minutes of one core
+assert abs(rigs.SECONDS_OF_WORK * work({"rig": "mixer"}) / 60 - 20) < 1
+assert 3 <= rigs.SECONDS_OF_WORK * work(mixer) / 60 <= 4
+machine = {"rig": "machine", "vesselVolume": "0.01"}
+assert abs(share(machine, {**machine, "vesselVolume": "0.02", "fill": "0.6"}) - 4) < 1e-9
 assert abs(share({"rig": "drum"}, {"rig": "drum", "fill": "0.25"}) - 0.5) < 1e-9
 with tempfile.TemporaryDirectory(prefix="vielto-campaign-") as name:
     folder = pathlib.Path(name)

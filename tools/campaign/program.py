@@ -41,6 +41,7 @@ def add_options(parser):
         "--again", action="store_true", help="make runs anew that were made from other files or settings"
     )
     parser.add_argument("--rigs", type=pathlib.Path, metavar="FILE", help="table of rigs of your own (cases/rigs.toml)")
+    parser.add_argument("--estimate", action="store_true", help="say what the study costs, and run nothing")
     parser.add_argument("--every", type=float, default=60, help="seconds between two lines of progress")
 
 
@@ -54,6 +55,8 @@ def work(options):
     points = [p for p in every if p["run"].endswith(options.only)]
     if not points:
         raise BadInput(f"no run of {table} ends in {options.only}; --only takes the end of runs' names")
+    if options.estimate:
+        return tell_cost(known, points, options.cores)
     options.bin = options.bin or programs()
     out = (options.out or ROOT / "results/studies" / table.stem).resolve()
     if re.search(r"[\s'\"$#&*{}]", str(out)):
@@ -69,6 +72,22 @@ def work(options):
     if status or missing:
         lacking = f"; not in the tables: {', '.join(sorted(missing))}" if missing else ""
         raise RunFailed(f"not all runs ended well{lacking}; {out / 'snakemake.log'} tells why")
+    return 0
+
+
+def tell_cost(known, points, cores):
+    """Of all runs and of the dearest one, by the rigs' `work`."""
+    seconds = {p["run"]: rigs.SECONDS_OF_WORK * known[p["rig"]].work(p) for p in points}
+    dearest = max(seconds, key=seconds.get)
+    total = sum(seconds.values())
+    print(
+        f"{len(points)} runs, about {total / 3600:.2g} core-hours, {total / 3600 / min(cores, len(points)):.2g} hours on "
+        f"{cores} cores; the dearest, {dearest}, about {seconds[dearest] / 60:.2g} minutes of one core "
+        "(a core of 2 GHz, to a factor of two: doc/reference/cost.md)"
+    )
+    unknown = [run for run, cost in seconds.items() if cost == 0]
+    if unknown:
+        print(f"not in it, since their rig states no `work` for them: {len(unknown)} runs, {unknown[0]} first")
     return 0
 
 
