@@ -8,7 +8,7 @@ import struct
 
 RADIUS, LENGTH, CHORDS = 100.0, 240.0, 48  # of the drum, mm
 SHAFT, SHAFT_CHORDS = 15.0, 24
-TIP, WIDTH, DEPTH, NOSE = 97.0, 50.0, 22.0, 30.0  # a plough: reach, along the axis, radially, ahead
+TIP, WIDTH, DEPTH, NOSE = 98.0, 50.0, 22.0, 30.0  # a plough: reach, along the axis, radially, ahead
 ARM = 8.0
 
 

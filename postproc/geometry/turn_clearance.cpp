@@ -7,15 +7,16 @@
 #include <vtkStaticPointLocator.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
-#include <map>
+#include <unordered_map>
 #include <utility>
 
 namespace vielto {
 namespace {
 
-constexpr double kErrorOfSamples = 5.1;  // over the width of pieces
+constexpr double kErrorOfSamples = 8;  // over the width of pieces
 
 struct Image {
   double s = 0, r = 0;
@@ -88,18 +89,35 @@ void for_samples(const Piece& p, double width, const Use& use) {
   }
 }
 
-// Samples of pieces, one a cell, and their distances to those of other pieces.
+// Cells of the half plane, `width` wide, that hold something.
+using Cell = std::array<long, 4>;
+struct HashOfCell {
+  std::size_t operator()(const Cell& c) const {
+    std::size_t hash = 0;
+    for (const long i : c) hash = (hash ^ static_cast<std::size_t>(i)) * 0x9E3779B97F4A7C15ull + (hash >> 29);
+    return hash;
+  }
+};
+
+// Samples of pieces, one a cell, and their distances to those of other pieces. Of pieces with the same box, to the
+// width, one is sampled: their images are the same to that.
 class Samples {
  public:
   Samples(const std::vector<Piece>& pieces, double width) : width_(width) {
     points_->SetDataTypeToDouble();
-    for (const Piece& p : pieces)
+    std::unordered_map<Cell, std::size_t, HashOfCell> index;
+    for (const Piece& p : pieces) {
+      std::vector<std::size_t>& of_box = boxes_[box(p)];
+      if (!of_box.empty()) continue;
       for_samples(p, width, [&](const Image& i) {
-        if (index_.emplace(cell(i), images_.size()).second) {
-          images_.push_back(i);
-          points_->InsertNextPoint(i.s, i.r, 0);
-        }
+        const auto [at, added] =
+            index.emplace(Cell{std::lround(i.s / width), std::lround(i.r / width), 0, 0}, images_.size());
+        of_box.push_back(at->second);
+        if (!added) return;
+        images_.push_back(i);
+        points_->InsertNextPoint(i.s, i.r, 0);
       });
+    }
     data_->SetPoints(points_);
     locator_->SetDataSet(data_);
     locator_->BuildLocator();
@@ -117,15 +135,18 @@ class Samples {
   }
   double least_of(const Piece& p) const {
     double least = std::numeric_limits<double>::infinity();
-    for_samples(p, width_, [&](const Image& i) { least = std::min(least, distance_[index_.at(cell(i))]); });
+    for (const std::size_t i : boxes_.at(box(p))) least = std::min(least, distance_[i]);
     return least;
   }
 
  private:
-  std::pair<long, long> cell(const Image& i) const { return {std::lround(i.s / width_), std::lround(i.r / width_)}; }
+  Cell box(const Piece& p) const {
+    return {std::lround(p.s0 / width_), std::lround(p.s1 / width_), std::lround(p.r0 / width_),
+            std::lround(p.r1 / width_)};
+  }
 
   double width_;
-  std::map<std::pair<long, long>, std::size_t> index_;
+  std::unordered_map<Cell, std::vector<std::size_t>, HashOfCell> boxes_;  // of samples
   std::vector<Image> images_;
   std::vector<double> distance_;
   vtkNew<vtkPoints> points_;
