@@ -40,7 +40,14 @@ def plough(x, angle):
         return (x + along, y * c - z * s, y * s + z * c)
 
     low, high, half = TIP - DEPTH, TIP - 5, WIDTH / 2  # corners of the back stay inside the tip's circle
-    corners = [at(-half, low, 0), at(half, low, 0), at(half, high, 0), at(-half, high, 0), at(0, low, NOSE), at(0, high, NOSE)]
+    corners = [
+        at(-half, low, 0),
+        at(half, low, 0),
+        at(half, high, 0),
+        at(-half, high, 0),
+        at(0, low, NOSE),
+        at(0, high, NOSE),
+    ]
     body = hull(corners, [(3, 2, 1, 0), (0, 1, 4), (2, 3, 5), (1, 2, 5, 4), (3, 0, 4, 5)])
     a = ARM / 2
     box = [at(i * a, r, j * a + a) for r in (SHAFT / 2, low + 2) for i, j in ((-1, -1), (1, -1), (1, 1), (-1, 1))]

@@ -224,7 +224,9 @@ std::string Effect::changes(const std::string& rig) const {
 }
 
 bool Transform::acts_on(const std::string& on_apparatus, const std::string& on_observable) const {
-  return apparatus == on_apparatus && (observable == "*" || observable == on_observable);
+  const RigDescription* described = find_rig(on_apparatus);
+  const bool named = apparatus == on_apparatus || (described && described->effects_of == apparatus);
+  return named && (observable == "*" || observable == on_observable);
 }
 
 Reading Transform::reading(const Observation& row, double y, double strength) const {

@@ -75,6 +75,7 @@ struct Transform {
   std::map<std::string, double> reference;
   Curve curve;
 
+  // Also on a rig that takes the effects of `apparatus` (cases/rigs.toml, effects_of).
   bool acts_on(const std::string& on_apparatus, const std::string& on_observable) const;
   // Of y at the conditions of `row`; not for shift. Errors: BadInput if the row lacks a condition that is asked for or
   // lies outside the curve, or if nothing would be left of y (efficiency).

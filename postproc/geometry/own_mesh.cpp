@@ -326,6 +326,7 @@ Triangles read_own_stl(const std::string& path) {
   std::uint32_t count = 0;
   std::memcpy(&count, start.data() + 80, 4);
   const bool whole_head = in.gcount() == 84;
+  start.resize(static_cast<std::size_t>(in.gcount()));
   in.clear();
   Triangles triangles;
   if (whole_head && size == 84 + 50ull * count) {

@@ -64,6 +64,18 @@ TEST(GapEffects, EveryChangeIsANumberOverThePriorRange) {
     }
 }
 
+// What is measured at a machine of a user's own goes through the same chain (cases/rigs.toml, effects_of).
+TEST(GapEffects, AMachineTakesTheMixersEffectsOfMeasurement) {
+  std::set<std::string> acting;
+  for (const Effect& e : effects())
+    for (const char* observable : {"power", "power_loaded", "power_idle", "torque_ripple"}) {
+      EXPECT_EQ(e.transform_of("machine", observable), e.transform_of("mixer", observable)) << e.name;
+      EXPECT_EQ(e.transform_of("silo", observable), nullptr) << e.name;
+      if (e.transform_of("machine", observable)) acting.insert(e.name);
+    }
+  EXPECT_TRUE(acting.count("drive_loss") && acting.count("fill_error"));
+}
+
 // Every -var that an effect writes for the mixer stands in its parameters or a card.
 TEST(GapEffects, TheMixerKnowsEverySwitch) {
   const std::string cases = VIELTO_SOURCE_DIR "/cases/", cards = VIELTO_SOURCE_DIR "/materials/";

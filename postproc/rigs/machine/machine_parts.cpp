@@ -92,10 +92,14 @@ MachinePart read_part(const TomlTable& stated, const std::filesystem::path& fold
   part.through = yes(stated, "through");
   if (part.through && !part.turns) stated.refuse("through", "is for a part that turns", "leave it out");
   part.file = (folder / stated.text("file")).string();
-  Triangles triangles = read_own_stl(part.file);
-  for (Triangle& t : triangles)
+  part.mesh.triangles = read_own_stl(part.file);
+  for (Triangle& t : part.mesh.triangles)
     for (Point& p : t) p = frame(p);
-  part.mesh = mended_mesh(part.file, triangles);
+  return part;
+}
+
+void mend(MachinePart& part) {
+  part.mesh = mended_mesh(part.file, part.mesh.triangles);
   const Measure& m = part.mesh.measure;
   if (m.crowded_edges > 0)
     throw BadInput(part.file, 0, fmt::format("has {} edges that more than two triangles share", m.crowded_edges),
@@ -107,13 +111,13 @@ MachinePart read_part(const TomlTable& stated, const std::filesystem::path& fold
                    fmt::format("close it in CAD, or write open = true for part {} if that is meant (a sheet, a vessel "
                                "without lid)",
                                part.name));
-  return part;
 }
 
 void check_extents(const MachineParts& machine, const TomlTable& table) {
   Point low = Point::Constant(INFINITY), high = -low;
   for (const MachinePart& part : machine.parts)
-    low = low.cwiseMin(part.mesh.measure.low), high = high.cwiseMax(part.mesh.measure.high);
+    for (const Triangle& t : part.mesh.triangles)
+      for (const Point& p : t) low = low.cwiseMin(p), high = high.cwiseMax(p);
   const double size = (high - low).maxCoeff();
   if (size < kSmallest || size > kLargest)
     table.refuse("unit", fmt::format("is '{}', with which the machine is {:.4g} m long", table.text("unit"), size),
@@ -151,6 +155,7 @@ MachineParts read_machine_parts(const std::string& path) {
       table.refuse("part", fmt::format("has none that {}", turning ? "turns" : "stands"),
                    fmt::format("write motion = \"{}\" for one", turning ? "turns" : "stands"));
   check_extents(machine, table);
+  for (MachinePart& part : machine.parts) mend(part);
   return machine;
 }
 
