@@ -39,7 +39,7 @@ inline Facets ribbon(double r0, double r1, double t, double pitch, double x0, in
   const auto at = [&](int i, double r, double up) { return around_x(x0 + pitch * i * d / (2 * pi) + up, r, i * d); };
   for (int i = 0; i < n; ++i) {
     add_quad(f, at(i, r0, t), at(i, r1, t), at(i + 1, r1, t), at(i + 1, r0, t));
-    add_quad(f, at(i + 1, r0, 0), at(i + 1, r1, 0), at(i, r1, 0), at(i, r0, 0));
+    add_quad(f, at(i, r0, 0), at(i + 1, r0, 0), at(i + 1, r1, 0), at(i, r1, 0));  // cut along the same diagonal
     add_quad(f, at(i, r1, 0), at(i + 1, r1, 0), at(i + 1, r1, t), at(i, r1, t));
     add_quad(f, at(i + 1, r0, 0), at(i, r0, 0), at(i, r0, t), at(i + 1, r0, t));
   }
