@@ -22,13 +22,17 @@ struct Options {
 };
 
 void check(const Options& o) {
-  const Measure m = check_stl(o.check, o.closed);
+  const StlCheck checked = check_stl(o.check, o.closed);
+  const Measure& m = checked.measure;
   fmt::print("{}: {} triangles, {} open edges, {} edges shared wrongly, smallest angle {:.2f} deg, area {:.6g} m2, ",
              o.check, m.triangles, m.open_edges, m.crowded_edges, m.smallest_angle * 57.29577951308232, m.area);
   if (m.open_edges == 0 && m.crowded_edges == 0)
     fmt::print("volume {:.6g} m3 (normals {})\n", m.volume, m.volume > 0 ? "outward" : "inward");
   else
     fmt::print("open, so no volume\n");
+  if (!checked.fault.empty())
+    throw BadInput(o.check, 0, checked.fault,
+                   "export it again as text; 'vielto geometry' of a machine reads it as it is");
 }
 
 void make(const Options& o) {

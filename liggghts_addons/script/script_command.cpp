@@ -195,7 +195,7 @@ void ViEltoCommand::place(int, char** arg) {
     }
     if (fault.empty() && there < count)
       fault = "vielto: mass that cannot be placed: asked for " + std::to_string(count) + " grains, there is room for " +
-              std::to_string(there) + "; lower fill, mass or grainDiameter";
+              std::to_string(there) + "; lower fill or mass, or take smaller grains (grainDiameter)";
   }
   stop_if(fault);
   MPI_Bcast(places.data(), static_cast<int>(places.size()), MPI_DOUBLE, 0, world);

@@ -67,7 +67,12 @@ void RunSetup::run(int ranks, const char* liggghts) {
                  {"versions", {{"vielto", VIELTO_VERSION}, {"liggghts", liggghts}}},
                  {"parameters", now},
                  {"hashes", hashes(script_on_command_line(), now)}});
-    make_mesh(folder.partial() + "/mesh");
+    try {
+      make_mesh(folder.partial() + "/mesh");
+    } catch (...) {  // nothing has been run in it
+      fs::remove_all(folder.partial());
+      throw;
+    }
   }
   parameters_.check_values(derived_numbers(folder.partial() + "/mesh/geometry.par"));
   log_ = "log " + folder.partial() + "/log.liggghts" + (resuming ? " append" : "");

@@ -1,14 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// STL files as CAD programs write them, made into meshes that LIGGGHTS takes.
-//
-// Read: text and binary, lines that end in LF or CRLF, binary files whose header begins with "solid" (they have the
-// length that their number of triangles says). A file that is cut off is refused. Not vtkSTLReader: it is single
-// precision, takes a cut-off file for a shorter one, and names no line.
+// Meshes as CAD programs write them, made into meshes that LIGGGHTS takes.
 //
 // Mended, each said: vertices nearer than kMergeDistance are one (LIGGGHTS takes neighbours by equal end points);
 // triangles without area and copies of others are dropped; the faces of a shell get one orientation, closed shells
-// outward (vtkPolyDataNormals); triangles with an angle below kLeastAngle are cut along their longest edge together
-// with the neighbour there, which leaves the surface as it is (LIGGGHTS warns below 0.5 degrees and stops below 0.26).
+// outward (vtkPolyDataNormals); triangles with an angle below kLeastAngle are cut anew, which leaves the surface as it
+// is (slivers.h; LIGGGHTS warns below 0.5 degrees and stops below 0.26).
 #pragma once
 
 #include <string>
@@ -22,10 +18,6 @@ constexpr double kMergeDistance = 1e-6;            // m; finer than any wall of 
 constexpr double kLeastAngle = 1.0 * kPi / 180;    // rad
 constexpr double kLeastTaken = 0.5 * kPi / 180;    // rad
 constexpr std::size_t kMostTriangles = 2'000'000;  // of one part; some 200 MB
-
-// In the file's own unit of length. Errors: BadInput with line for a file that cannot be read, is no STL, is cut off,
-// holds no triangle or a number that is none.
-Triangles read_own_stl(const std::string& path);
 
 struct MendedMesh {
   Triangles triangles;

@@ -2,11 +2,6 @@
 #include "geometry/stl.h"
 
 #include <fmt/format.h>
-#include <vtkCallbackCommand.h>
-#include <vtkExecutive.h>
-#include <vtkNew.h>
-#include <vtkPolyData.h>
-#include <vtkSTLReader.h>
 
 #include <algorithm>
 #include <cctype>
@@ -15,6 +10,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 
 #include "core/bad_input.h"
 #include "core/csv.h"
@@ -22,34 +18,77 @@
 namespace vielto {
 namespace {
 
-const char* const kRemake = "make it anew with 'vielto geometry'";
+const char* const kExport = "export it again as STL";
 
-// VTK takes a cut-off file for a shorter one: the end has to be there.
-void refuse_cut_off(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
-  if (!in) throw BadInput(path, 0, "cannot be read", kRemake);
-  const auto size = std::filesystem::file_size(path);
-  if (size == 0) throw BadInput(path, 0, "is empty", kRemake);
-  std::string start(84, '\0');
-  in.read(start.data(), 84);
+bool has_binary_length(const std::string& start, std::uintmax_t size) {
   std::uint32_t count = 0;
+  if (start.size() < 84) return false;
   std::memcpy(&count, start.data() + 80, 4);
-  const bool binary = in.gcount() == 84 && size == 84 + 50ull * count;
-  if (binary) return;
-  if (start.rfind("solid", 0) != 0) throw BadInput(path, 1, "is not an STL file, or cut off", kRemake);
-  in.clear();
-  in.seekg(0);
-  std::string line, last;
-  int number = 0;
-  while (std::getline(in, line)) {
-    ++number;
-    // VTK would take the file for a binary one, and four letters of it for the number of triangles
-    if (std::any_of(line.begin(), line.end(),
-                    [](unsigned char c) { return !std::isprint(c) && c != '\t' && c != '\r'; }))
-      throw BadInput(path, number, "begins as text, but holds bytes that are no text", kRemake);
-    if (line.find_first_not_of(" \t\r") != std::string::npos) last = line;
+  return size == 84 + 50ull * count;
+}
+
+std::string first_bytes(const std::string& path, std::size_t most) {
+  std::string start(most, '\0');
+  std::ifstream in(path, std::ios::binary);
+  in.read(start.data(), static_cast<std::streamsize>(most));
+  start.resize(static_cast<std::size_t>(in.gcount()));
+  return start;
+}
+
+Triangles read_binary(const std::string& path) {
+  Triangles triangles;
+  std::ifstream in(path, std::ios::binary);
+  in.seekg(84);
+  char record[50];
+  while (in.read(record, sizeof record)) {
+    float numbers[12];
+    std::memcpy(numbers, record, sizeof numbers);  // normal, then three vertices
+    Triangle t;
+    for (int k = 0; k < 3; ++k) t[k] = Point(numbers[3 * k + 3], numbers[3 * k + 4], numbers[3 * k + 5]);
+    for (const Point& p : t)
+      if (!p.allFinite())
+        throw BadInput(path, 0, fmt::format("triangle {} has a vertex that is no number", triangles.size() + 1),
+                       kExport);
+    triangles.push_back(t);
   }
-  if (last.find("endsolid") == std::string::npos) throw BadInput(path, number, "ends before 'endsolid'", kRemake);
+  return triangles;
+}
+
+// Words "vertex x y z" make triangles, three to a "facet"; "endsolid" ends the file or one of its solids.
+Triangles read_text(const std::string& path) {
+  std::ifstream in(path);
+  Triangles triangles;
+  Triangle t;
+  int number = 0, corners = 0;
+  bool ended = false;
+  const auto refuse = [&](const std::string& what) {
+    throw BadInput(path, number, in.eof() ? "ends before 'endsolid': the file is cut off" : what, kExport);
+  };
+  for (std::string line; std::getline(in, line);) {
+    ++number;
+    const auto unprintable = [](unsigned char c) { return c < 128 && !std::isprint(c) && !std::isspace(c); };
+    if (std::any_of(line.begin(), line.end(), unprintable)) refuse("begins as text, but holds bytes that are no text");
+    std::istringstream words(line);
+    std::string word;
+    if (!(words >> word)) continue;
+    std::transform(word.begin(), word.end(), word.begin(), [](unsigned char c) { return std::tolower(c); });
+    if (word == "vertex") {
+      double x[3];
+      std::string rest;
+      if (!(words >> x[0] >> x[1] >> x[2]) || words >> rest) refuse("is no vertex of three numbers");
+      if (corners == 3) refuse("is a fourth vertex of one facet");
+      t[corners++] = Point(x[0], x[1], x[2]);
+    } else if (word == "endfacet") {
+      if (corners != 3) refuse(fmt::format("ends a facet of {} vertices", corners));
+      triangles.push_back(t);
+      corners = 0;
+    } else if (word != "solid" && word != "facet" && word != "outer" && word != "endloop" && word != "endsolid") {
+      refuse(fmt::format("begins with '{}', which is no word of an STL file", word));
+    }
+    ended = word == "endsolid";
+  }
+  if (!ended) refuse("");
+  return triangles;
 }
 
 }  // namespace
@@ -66,43 +105,45 @@ void write_stl(const std::string& path, const std::string& name, const Triangles
 }
 
 Triangles read_stl(const std::string& path) {
-  refuse_cut_off(path);
-  std::string complaint;
-  vtkNew<vtkCallbackCommand> listen;
-  listen->SetClientData(&complaint);
-  listen->SetCallback([](vtkObject*, unsigned long, void* text, void* message) {
-    *static_cast<std::string*>(text) = static_cast<const char*>(message);
-  });
-  vtkNew<vtkSTLReader> reader;
-  reader->AddObserver(vtkCommand::ErrorEvent, listen);
-  reader->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, listen);  // it complains once more by itself
-  reader->SetFileName(path.c_str());
-  reader->Update();
-  if (!complaint.empty()) throw BadInput(path, 0, "is a corrupt STL file", kRemake);
-  vtkPolyData* data = reader->GetOutput();
+  if (!std::ifstream(path) || std::filesystem::is_directory(path))
+    throw BadInput(path, 0, "cannot be read", "check its name, and the folder that it starts from");
+  const auto size = std::filesystem::file_size(path);
+  if (size == 0) throw BadInput(path, 0, "is empty", kExport);
+  const std::string start = first_bytes(path, 84);
+  const auto first = std::min(start.find_first_not_of(" \t\r\n"), start.size());
+  std::string word = start.substr(first, 5);
+  std::transform(word.begin(), word.end(), word.begin(), [](unsigned char c) { return std::tolower(c); });
   Triangles triangles;
-  for (vtkIdType i = 0; i < data->GetNumberOfCells(); ++i) {
-    vtkIdType n = 0;
-    const vtkIdType* ids = nullptr;
-    data->GetCellPoints(i, n, ids);
-    Triangle t;
-    for (int k = 0; k < 3; ++k) t[k] = Point(data->GetPoint(ids[k]));
-    if (n != 3 || !((t[1] - t[0]).cross(t[2] - t[0]).norm() > 1e-16) || !t[0].allFinite() || !t[1].allFinite() ||
-        !t[2].allFinite())
-      throw BadInput(path, 0, fmt::format("triangle {} has no area", i + 1), kRemake);
-    triangles.push_back(t);
-  }
-  if (triangles.empty()) throw BadInput(path, 0, "holds no triangle", kRemake);
+  if (has_binary_length(start, size))
+    triangles = read_binary(path);
+  else if (word == "solid" && start.find('\0') == std::string::npos)
+    triangles = read_text(path);
+  else
+    throw BadInput(path, 0, "is no STL file, or cut off: its length is not that of its number of triangles", kExport);
+  if (triangles.empty()) throw BadInput(path, 0, "holds no triangle", kExport);
   return triangles;
 }
 
-Measure check_stl(const std::string& path, bool closed) {
-  const Measure m = measure(read_stl(path));
+StlCheck check_stl(const std::string& path, bool closed) {
+  const Triangles triangles = read_stl(path);
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    const Triangle& t = triangles[i];
+    if (!((t[1] - t[0]).cross(t[2] - t[0]).norm() > 1e-16))
+      throw BadInput(path, 0, fmt::format("triangle {} has no area", i + 1), kExport);
+  }
+  StlCheck check{measure(triangles), ""};
+  const Measure& m = check.measure;
   if (closed && (m.open_edges > 0 || m.crowded_edges > 0))
     throw BadInput(path, 0,
                    fmt::format("is not closed: {} open edges, {} edges shared wrongly", m.open_edges, m.crowded_edges),
-                   kRemake);
-  return m;
+                   kExport);
+  const std::string start = first_bytes(path, 84);
+  const bool binary = has_binary_length(start, std::filesystem::file_size(path));
+  if (binary && start.substr(0, 5) == "solid")
+    check.fault = "is binary, but begins with 'solid', by which LIGGGHTS takes it for text and finds no triangle";
+  if (!binary && start.substr(0, 5) != "solid")
+    check.fault = "is text, but does not begin with 'solid', by which LIGGGHTS takes it for binary";
+  return check;
 }
 
 }  // namespace vielto

@@ -1,26 +1,20 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "geometry/turn_clearance.h"
 
-#include <vtkNew.h>
-#include <vtkPoints.h>
-#include <vtkPolyData.h>
-#include <vtkStaticPointLocator.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
-#include <unordered_map>
+#include <memory>
+#include <queue>
+#include <set>
 #include <utility>
+#include <vector>
 
 namespace vielto {
 namespace {
 
-constexpr double kErrorOfSamples = 8;  // over the width of pieces
-
-struct Image {
-  double s = 0, r = 0;
-};
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // A triangle in coordinates with the axis as x, and the box of its image.
 struct Piece {
@@ -32,7 +26,7 @@ double distance_from_axis(const Triangle& t) {
   const auto cross = [](const Point& a, const Point& b) { return a.y() * b.z() - a.z() * b.y(); };
   const double a = cross(t[0], t[1]), b = cross(t[1], t[2]), c = cross(t[2], t[0]);
   if ((a > 0 && b > 0 && c > 0) || (a < 0 && b < 0 && c < 0)) return 0;  // the axis goes through
-  double nearest = std::numeric_limits<double>::infinity();
+  double nearest = kInfinity;
   for (int i = 0; i < 3; ++i) {
     const Eigen::Vector2d p = t[i].tail<2>(), d = t[(i + 1) % 3].tail<2>() - p;
     const double k = d.squaredNorm() > 0 ? std::clamp(-p.dot(d) / d.squaredNorm(), 0.0, 1.0) : 0.0;
@@ -48,142 +42,95 @@ Piece piece_of(const Triangle& t) {
   return {t, low, high, distance_from_axis(t), r1};
 }
 
-// Halved along the edge that is longest across the axis, until no image is wider than `width`; then along the longest
-// edge, until none is longer than kLongest of that, so that far ones can be left out.
-std::vector<Piece> cut(const std::vector<Piece>& pieces, double width) {
-  constexpr double kLongest = 64;
-  std::vector<Piece> narrow, rest = pieces;
+std::pair<Piece, Piece> halves(const Triangle& t) {
+  int k = 0;
+  for (int i = 1; i < 3; ++i)
+    if ((t[(i + 1) % 3] - t[i]).norm() > (t[(k + 1) % 3] - t[k]).norm()) k = i;
+  const Point &a = t[k], &b = t[(k + 1) % 3], &c = t[(k + 2) % 3], middle = (a + b) / 2;
+  return {piece_of({a, middle, c}), piece_of({middle, b, c})};
+}
+
+struct Set {
+  std::vector<Piece> pieces;
+  double s0 = kInfinity, s1 = -kInfinity, r0 = kInfinity, r1 = -kInfinity;
+  std::unique_ptr<Set> first, second;  // made when they are asked for
+
+  void add(const Piece& p) {
+    pieces.push_back(p);
+    s0 = std::min(s0, p.s0), s1 = std::max(s1, p.s1), r0 = std::min(r0, p.r0), r1 = std::max(r1, p.r1);
+  }
+  double size() const { return std::hypot(s1 - s0, r1 - r0); }
+};
+
+// By the middle of the longer side of the box, after every piece is shorter than half of that side. A piece hangs
+// together, so that it takes every value between the ends of its box: of those whose boxes are no wider than `same` one
+// way, and equal to that, one is enough.
+void halve(Set& set, double same) {
+  set.first = std::make_unique<Set>(), set.second = std::make_unique<Set>();
+  const bool by_s = set.s1 - set.s0 > set.r1 - set.r0;
+  const double low = by_s ? set.s0 : set.r0, half = 0.5 * (by_s ? set.s1 - set.s0 : set.r1 - set.r0);
+  std::set<std::array<long, 4>> seen;
+  std::vector<Piece>& rest = set.pieces;
   while (!rest.empty()) {
     const Piece p = rest.back();
     rest.pop_back();
-    const double ds = p.s1 - p.s0, dr = p.r1 - p.r0;
-    const bool wide = std::min(ds, dr) > width;
-    if (!wide && std::max(ds, dr) <= kLongest * width) {
-      narrow.push_back(p);
+    const double p0 = by_s ? p.s0 : p.r0, p1 = by_s ? p.s1 : p.r1;
+    if (p1 - p0 > half) {
+      const auto [one, other] = halves(p.t);
+      rest.push_back(one), rest.push_back(other);
       continue;
     }
-    const auto length = [wide](const Triangle& t, int i) {
-      const Point edge = t[(i + 1) % 3] - t[i];
-      return wide ? edge.tail<2>().norm() : edge.norm();
-    };
-    int k = 0;
-    for (int i = 1; i < 3; ++i)
-      if (length(p.t, i) > length(p.t, k)) k = i;
-    const Point &a = p.t[k], &b = p.t[(k + 1) % 3], &c = p.t[(k + 2) % 3], middle = (a + b) / 2;
-    rest.push_back(piece_of({a, middle, c}));
-    rest.push_back(piece_of({middle, b, c}));
-  }
-  return narrow;
-}
-
-template <class Use>
-void for_samples(const Piece& p, double width, const Use& use) {
-  const double ds = p.s1 - p.s0, dr = p.r1 - p.r0;
-  const int n = static_cast<int>(std::ceil(std::max(ds, dr) / (width / 2))) + 1;
-  for (int i = 0; i < n; ++i) {
-    const double k = n > 1 ? static_cast<double>(i) / (n - 1) : 0.5;
-    if (ds >= dr)
-      use(Image{p.s0 + k * ds, (p.r0 + p.r1) / 2});
-    else
-      use(Image{(p.s0 + p.s1) / 2, p.r0 + k * dr});
+    if (std::min(p.s1 - p.s0, p.r1 - p.r0) <= same) {
+      const auto rounded = [same](double x) { return std::lround(x / same); };
+      if (!seen.insert({rounded(p.s0), rounded(p.s1), rounded(p.r0), rounded(p.r1)}).second) continue;
+    }
+    (0.5 * (p0 + p1) < low + half ? set.first : set.second)->add(p);
   }
 }
 
-// Cells of the half plane, `width` wide, that hold something.
-using Cell = std::array<long, 4>;
-struct HashOfCell {
-  std::size_t operator()(const Cell& c) const {
-    std::size_t hash = 0;
-    for (const long i : c) hash = (hash ^ static_cast<std::size_t>(i)) * 0x9E3779B97F4A7C15ull + (hash >> 29);
-    return hash;
+struct Pair {
+  double distance;  // of the boxes
+  Set *a, *b;
+  Pair(Set* of_a, Set* of_b) : a(of_a), b(of_b) {
+    const double ds = std::max({0.0, a->s0 - b->s1, b->s0 - a->s1}), dr = std::max({0.0, a->r0 - b->r1, b->r0 - a->r1});
+    distance = std::hypot(ds, dr);
+  }
+  double size() const { return a->size() + b->size(); }
+  // of two pairs as near, the smaller one first: so that two bodies that meet are known to soon
+  bool operator<(const Pair& other) const {
+    return std::make_pair(distance, size()) > std::make_pair(other.distance, other.size());
   }
 };
 
-// Samples of pieces, one a cell, and their distances to those of other pieces. Of pieces with the same box, to the
-// width, one is sampled: their images are the same to that.
-class Samples {
- public:
-  Samples(const std::vector<Piece>& pieces, double width) : width_(width) {
-    points_->SetDataTypeToDouble();
-    std::unordered_map<Cell, std::size_t, HashOfCell> index;
-    for (const Piece& p : pieces) {
-      std::vector<std::size_t>& of_box = boxes_[box(p)];
-      if (!of_box.empty()) continue;
-      for_samples(p, width, [&](const Image& i) {
-        const auto [at, added] =
-            index.emplace(Cell{std::lround(i.s / width), std::lround(i.r / width), 0, 0}, images_.size());
-        of_box.push_back(at->second);
-        if (!added) return;
-        images_.push_back(i);
-        points_->InsertNextPoint(i.s, i.r, 0);
-      });
-    }
-    data_->SetPoints(points_);
-    locator_->SetDataSet(data_);
-    locator_->BuildLocator();
-  }
-  void measure_to(Samples& others) {
-    for (const Image& i : images_) {
-      const double x[3] = {i.s, i.r, 0};
-      const double* y = others.points_->GetPoint(others.locator_->FindClosestPoint(x));
-      distance_.push_back(std::hypot(x[0] - y[0], x[1] - y[1]));
-    }
-  }
-  std::pair<double, Image> least() const {
-    const auto at = std::min_element(distance_.begin(), distance_.end());
-    return {*at, images_[static_cast<std::size_t>(at - distance_.begin())]};
-  }
-  double least_of(const Piece& p) const {
-    double least = std::numeric_limits<double>::infinity();
-    for (const std::size_t i : boxes_.at(box(p))) least = std::min(least, distance_[i]);
-    return least;
-  }
-
- private:
-  Cell box(const Piece& p) const {
-    return {std::lround(p.s0 / width_), std::lround(p.s1 / width_), std::lround(p.r0 / width_),
-            std::lround(p.r1 / width_)};
-  }
-
-  double width_;
-  std::unordered_map<Cell, std::vector<std::size_t>, HashOfCell> boxes_;  // of samples
-  std::vector<Image> images_;
-  std::vector<double> distance_;
-  vtkNew<vtkPoints> points_;
-  vtkNew<vtkPolyData> data_;
-  vtkNew<vtkStaticPointLocator> locator_;
-};
-
-std::vector<Piece> seen_along(const Triangles& triangles, const TurnAxis& axis) {
+Set seen_along(const Triangles& triangles, const TurnAxis& axis) {
   const Eigen::Quaterniond turn = Eigen::Quaterniond::FromTwoVectors(axis.direction, Point::UnitX());
-  std::vector<Piece> pieces;
+  Set set;
   for (const Triangle& t : triangles)
-    pieces.push_back(piece_of({turn * (t[0] - axis.origin), turn * (t[1] - axis.origin), turn * (t[2] - axis.origin)}));
-  return pieces;
+    set.add(piece_of({turn * (t[0] - axis.origin), turn * (t[1] - axis.origin), turn * (t[2] - axis.origin)}));
+  return set;
 }
 
 }  // namespace
 
 TurnClearance turn_clearance(const Triangles& standing, const Triangles& turning, const TurnAxis& axis,
                              double tolerance) {
-  std::vector<Piece> a = seen_along(standing, axis), b = seen_along(turning, axis);
-  double size = 0;
-  for (const Piece& p : b) size = std::max({size, p.r1, std::fabs(p.s0), std::fabs(p.s1)});
-  const double finest = tolerance / kErrorOfSamples;
-  for (double width = std::max(size / 200, finest);; width = std::max(width / 8, finest)) {
-    a = cut(a, width), b = cut(b, width);
-    Samples of_a(a, width), of_b(b, width);
-    of_a.measure_to(of_b), of_b.measure_to(of_a);
-    const auto [distance, where] =
-        std::min(of_a.least(), of_b.least(), [](const auto& x, const auto& y) { return x.first < y.first; });
-    const TurnClearance best{distance, kErrorOfSamples * width, where.s, where.r};
-    if (width <= finest) return best;
-    const auto keep = [&best](std::vector<Piece>& pieces, const Samples& samples) {
-      pieces.erase(std::remove_if(pieces.begin(), pieces.end(),
-                                  [&](const Piece& p) { return samples.least_of(p) > best.distance + best.tolerance; }),
-                   pieces.end());
-    };
-    keep(a, of_a), keep(b, of_b);
+  const double same = tolerance / 8, least = tolerance;
+  Set a = seen_along(standing, axis), b = seen_along(turning, axis);
+  std::priority_queue<Pair> pairs;
+  pairs.emplace(&a, &b);
+  for (;;) {
+    const Pair nearest = pairs.top();
+    pairs.pop();
+    if (nearest.size() <= least) {
+      const double error = nearest.size() / 2 + 2 * same;
+      return {nearest.distance + nearest.size() / 2, error, (nearest.b->s0 + nearest.b->s1) / 2,
+              (nearest.b->r0 + nearest.b->r1) / 2};
+    }
+    const bool first = nearest.a->size() > nearest.b->size();
+    Set& larger = first ? *nearest.a : *nearest.b;
+    if (!larger.first) halve(larger, same);
+    for (Set* half : {larger.first.get(), larger.second.get()})
+      if (half->s0 <= half->s1) pairs.emplace(first ? half : nearest.a, first ? nearest.b : half);
   }
 }
 

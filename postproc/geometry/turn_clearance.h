@@ -2,11 +2,9 @@
 // The least distance between what stands and what turns, over a whole turn.
 //
 // A point at the axial place s and the radius r from the axis passes every angle, so that over a turn two points come
-// as near as they lie in the half plane (s, r). Both surfaces are cut into pieces whose image there is no wider than d
-// in s or in r; a piece hangs together, so that it takes every value in its other direction, and samples d/2 apart
-// along it lie within 1.12 d of all of it. Of samples in one cell of d x d one is kept, of pieces with the same box to
-// d one is sampled, 1.42 d each. Pieces farther away than the least distance between samples and the error of both
-// sides, 8 d, are left out, and the others are cut anew with a smaller d.
+// as near as they lie in the half plane (s, r). Each surface is a set of triangles with the box of its image there, and
+// is halved again and again; of all pairs of such sets the one whose boxes are nearest is halved next, until the two
+// nearest boxes are small. No pair is nearer than its boxes, and each box holds a point of its surface.
 #pragma once
 
 #include "geometry/surface.h"

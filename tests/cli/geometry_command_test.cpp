@@ -176,6 +176,37 @@ TEST_F(GeometryCommand, RefusesAMissingEmptyCorruptOrOpenMesh) {
   EXPECT_EQ(check("open.stl").status, 0);
 }
 
+// What CAD programs write, and LIGGGHTS tells apart by the first five letters alone. A tetrahedron's volume is 1/6.
+TEST_F(GeometryCommand, CheckTellsBinaryFilesThatBeginAsText) {
+  const float corners[4][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  const int faces[4][3] = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}};
+  const auto binary = [&](std::string header) {
+    header.resize(80, ' ');
+    header += std::string("\4\0\0\0", 4);
+    for (const auto& face : faces) {
+      header += std::string(12, '\0');  // the normal, which nobody reads
+      for (const int i : face) header.append(reinterpret_cast<const char*>(corners[i]), 12);
+      header += std::string(2, '\0');
+    }
+    return header;
+  };
+  write("binary.stl", binary("made by CAD"));
+  Outcome outcome = check("binary.stl", "--closed");
+  EXPECT_EQ(outcome.status, 0) << outcome.text;
+  EXPECT_NE(outcome.text.find("volume 0.166667 m3 (normals outward)"), std::string::npos) << outcome.text;
+  write("solid.stl", binary("solid made by CAD"));
+  outcome = check("solid.stl", "--closed");
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_NE(outcome.text.find("volume 0.166667 m3 (normals outward)"), std::string::npos) << outcome.text;
+  EXPECT_NE(outcome.text.find("is binary, but begins with 'solid'"), std::string::npos) << outcome.text;
+  std::string upper = good;
+  upper.replace(upper.find("solid"), 5, "Solid");
+  write("upper.stl", upper);
+  outcome = check("upper.stl");
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_NE(outcome.text.find("is text, but does not begin with 'solid'"), std::string::npos) << outcome.text;
+}
+
 TEST_F(LiggghtsReads, EveryMeshInAPeriodicBoxWithoutAComplaint) {
   for (const char* slice : {"2", "4", "6"}) {
     ASSERT_EQ(make(kMixer + " --set slicePaddles=" + slice).status, 0);

@@ -11,14 +11,15 @@
 
 #include "core/bad_input.h"
 #include "core/sha256.h"
+#include "geometry/bodies.h"
 #include "geometry/room.h"
 #include "rigs/machine/machine_parts.h"
 
 namespace vielto {
 namespace {
 
-constexpr double kPlay = 1.08;                // distance of places over the largest grain's diameter
-constexpr double kLeftOut = 0.1;              // share of places
+constexpr double kPlay = 1.03;                // distance of places over the largest grain's diameter
+constexpr double kLeftOut = 0.05;             // share of places
 constexpr double kDensestBed = 0.74;          // bulk over grain density: no bed is denser
 constexpr double kClearanceTolerance = 5e-4;  // of the rotor's radius
 
@@ -38,17 +39,22 @@ double reach(const Point& p, const TurnAxis& axis, const Point& direction) {
 
 struct Rotor {
   Triangles all, free;  // free: without what passes through walls
+  Triangles closed;     // the closed parts
   double radius = 0;    // m, of `free`, or of all
   double volume = 0;    // m3, of its closed parts
 };
 
 Rotor rotor_of(const MachineParts& machine) {
-  Rotor rotor{machine.of(true), machine.of(true, false), 0, 0};
+  Rotor rotor;
+  rotor.all = machine.of(true), rotor.free = machine.of(true, false);
   for (const Triangle& t : rotor.free.empty() ? rotor.all : rotor.free)
     for (const Point& p : t)
       rotor.radius = std::max(rotor.radius, (p - p.dot(machine.axis.direction) * machine.axis.direction).norm());
   for (const MachinePart& part : machine.parts)
-    if (part.turns && part.mesh.measure.open_edges == 0) rotor.volume += part.mesh.measure.volume;
+    if (part.turns && part.mesh.measure.open_edges == 0) {
+      rotor.volume += part.mesh.measure.volume;
+      rotor.closed.insert(rotor.closed.end(), part.mesh.triangles.begin(), part.mesh.triangles.end());
+    }
   return rotor;
 }
 
@@ -90,8 +96,10 @@ void check_rim(const MachineParts& machine, const Room& room) {
   }
 }
 
-std::vector<Point> places(const Room& room, const Triangles& all, const Bed& bed, std::size_t most) {
+std::vector<Point> places(const Room& room, const Triangles& all, const Triangles& closed, const Bed& bed,
+                          std::size_t most) {
   const SurfaceDistance distance(all);
+  Bodies bodies(closed);
   const double a = kPlay * bed.largest, play = 0.5 * (a - bed.largest), radius = 0.5 * bed.largest;
   const double row = a * std::sqrt(3.0) / 2, layer = a * std::sqrt(2.0 / 3.0);
   const Measure extent = measure(all);
@@ -110,7 +118,7 @@ std::vector<Point> places(const Room& room, const Triangles& all, const Bed& bed
         const bool left_out = std::fabs(unit(random)) < kLeftOut;
         if (moved.norm() > 1) moved.normalize();
         p += play * moved;
-        if (!left_out && room.holds(p, radius) && !distance.within(p, radius)) found.push_back(p);
+        if (!left_out && room.holds(p, radius) && !distance.within(p, radius) && !bodies.hold(p)) found.push_back(p);
       }
   std::sort(found.begin(), found.end(), [](const Point& p, const Point& q) { return p.z() < q.z(); });
   if (found.size() > most) found.resize(most);
@@ -260,9 +268,8 @@ RigGeometry machine_geometry(GeometryInput& input) {
   if (!bed.empty()) {
     const double needed = kDensestBed * bed.fill * volume / bed.mean_grain(spread);
     Triangles all = machine.of(false);
-    const Triangles turning = machine.of(true);
-    all.insert(all.end(), turning.begin(), turning.end());
-    found = places(room, all, bed, bed.mass > 0 ? SIZE_MAX : static_cast<std::size_t>(needed) + 1);
+    all.insert(all.end(), rotor.all.begin(), rotor.all.end());
+    found = places(room, all, rotor.closed, bed, bed.mass > 0 ? SIZE_MAX : static_cast<std::size_t>(needed) + 1);
     g.notes.push_back(fmt::format("{} places for grain of up to {:.3g} mm", found.size(), bed.largest * 1e3));
   }
   g.derived.emplace_back("places", fmt::format("{}", found.size()));

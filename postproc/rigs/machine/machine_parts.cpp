@@ -13,6 +13,7 @@
 
 #include "core/bad_input.h"
 #include "core/toml_table.h"
+#include "geometry/stl.h"
 
 namespace vielto {
 namespace {
@@ -92,7 +93,7 @@ MachinePart read_part(const TomlTable& stated, const std::filesystem::path& fold
   part.through = yes(stated, "through");
   if (part.through && !part.turns) stated.refuse("through", "is for a part that turns", "leave it out");
   part.file = (folder / stated.text("file")).string();
-  part.mesh.triangles = read_own_stl(part.file);
+  part.mesh.triangles = read_stl(part.file);
   for (Triangle& t : part.mesh.triangles)
     for (Point& p : t) p = frame(p);
   return part;
