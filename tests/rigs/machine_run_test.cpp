@@ -11,9 +11,9 @@ using machine_shapes::RibbonMixer;
 
 namespace {
 
-// Grains of 14 mm as soft as the coarse mixer's (mixer_runner.h).
+// Grains of 18 mm as soft as the coarse mixer's (mixer_runner.h).
 const std::string coarse =
-    "-var grainDiameter 0.014 -var youngsModulus 2e5 -var wall_youngsModulus 2e5 -var speed 1.58 -var maxOverlap 0.5 "
+    "-var grainDiameter 0.018 -var youngsModulus 2e5 -var wall_youngsModulus 2e5 -var speed 1.58 -var maxOverlap 0.5 "
     "-var maxTorque 0 ";
 
 class Machine : public testing::Test {
@@ -55,7 +55,7 @@ TEST_F(Machine, PaddleMixerAsStlGivesThePaddleMixersTorque) {
     settings += " --set " + name + "=" + value;
     options += "-var " + name + " " + value + " ";
   }
-  mixer.must("its_own", coarse, options + "-var fill 0.15 -var settleTime 0.35 -var turns 9 ");
+  mixer.must("its_own", coarse, options + "-var fill 0.15 -var settleTime 0.35 -var turns 6 ");
   const Outcome evaluated = mixer.vielto("post its_own");
   ASSERT_EQ(evaluated.status, 0) << evaluated.text;
   const auto expected = nlohmann::json::parse(mixer.read("its_own/post/power.json"));
@@ -72,7 +72,7 @@ TEST_F(Machine, PaddleMixerAsStlGivesThePaddleMixersTorque) {
                         "[[part]]\nname = \"axle\"\nfile = \"shaft.stl\"\nmotion = \"turns\"\nopen = true\n"
                         "through = true\n");
   rig.must("as_stl", coarse,
-           fmt::format("-var parts '{}' -var mass {:.9g} -var powerLever 0.114 -var turns 9 ",
+           fmt::format("-var parts '{}' -var mass {:.9g} -var powerLever 0.114 -var turns 6 ",
                        (stl / "mixer.toml").string(), 0.15 * 0.01337 * 825));
   const auto told = posted("as_stl");
   const auto of = [](const nlohmann::json& power, const char* key) { return power[key].get<double>(); };
@@ -125,9 +125,9 @@ TEST_F(Machine, RibbonTurnsGrainAndBalances) {
 // The empty machine, with the idling model of a user's own.
 TEST_F(Machine, EmptyMachineIdles) {
   const std::string idle = "-var idleTorque 0.5 -var idleNoise 0.02 ";
-  rig.must("idle", coarse, ribbon() + "-var fill 0 -var turns 6 " + idle);
+  rig.must("idle", coarse, ribbon() + "-var fill 0 -var turns 5 " + idle);
   EXPECT_EQ(header("idle", "mass_kg"), "0");
-  rig.must("loaded", coarse, ribbon() + "-var fill 0.3 -var turns 5 " + idle);
+  rig.must("loaded", coarse, ribbon() + "-var fill 0.3 -var turns 2 " + idle);
   const Outcome done = rig.vielto("post loaded --idle idle");
   ASSERT_EQ(done.status, 0) << done.text;
   const auto told = nlohmann::json::parse(rig.read("loaded/post/power.json"));
@@ -183,16 +183,18 @@ TEST_F(Machine, IsPlannedForALibrary) {
 }
 
 TEST_F(Machine, RefusesARunThatCannotBe) {
-  const auto refused = [&](const std::string& options, const std::string& why) {
+  // what is refused before it has a mesh leaves no folder at all
+  const auto refused = [&](const std::string& options, const std::string& why, bool meshed = false) {
     const Outcome done = rig.rig("bad", coarse, options);
     EXPECT_NE(done.status, 0) << options;
     EXPECT_NE(done.text.find(why), std::string::npos) << options << "\n" << done.text;
     EXPECT_FALSE(std::filesystem::exists(rig.folder / "bad"));
+    EXPECT_EQ(std::filesystem::exists(rig.folder / "bad.partial"), meshed);
     std::filesystem::remove_all(rig.folder / "bad.partial");
   };
   const std::string parts = ribbon();
-  refused(parts + "-var mass 9 ", "mass that cannot be placed: asked for ");
-  refused(parts + "-var mass 1e-4 ", "is less than half a grain");
+  refused(parts + "-var mass 9 ", "mass that cannot be placed: asked for ", true);
+  refused(parts + "-var mass 1e-4 ", "is less than half a grain", true);
   refused(parts + "-var fill 0.95 ", "fill is 0.95");
   refused(parts + "-var vesselVolume 0.5 ", "'vesselVolume' 0.5: the meshes hold ");
   refused(parts + "-var paddleCount 4 ", "paddleCount");

@@ -18,7 +18,7 @@
 namespace vielto {
 namespace {
 
-constexpr double kSmallest = 0.005, kLargest = 50;  // m, of a whole machine
+constexpr double kSmallest = 0.005, kLargest = 10;  // m, of a whole machine
 
 Point three(const TomlTable& table, const std::string& key) {
   const toml::array* list = table.raw()[key].as_array();
