@@ -69,6 +69,7 @@ namespace {
 constexpr double kMostCubes = 1e6;
 constexpr int kMargin = 3;  // cubes beyond the vessel, which are outside
 constexpr int kNone = -1;
+constexpr int kMostHidden = 12;  // cubes of the room behind another surface, the nearest ones
 
 // By the region of the triangle's plane in which the point lies (Ericson 2005, Real-Time Collision Detection, 5.1.5).
 double distance_to_triangle(const Point& p, const Triangle& t) {
@@ -256,11 +257,14 @@ bool Room::faces_room(const Point& at, const Point& normal) const {
   const Lattice& l = *lattice_;
   const Point from = at + 1e-3 * l.h * normal;
   const auto c = l.cell(at);
+  int hidden = 0;
   for (const std::array<int, 3>& step : l.near) {
     const std::array<int, 3> cube = {c[0] + step[0], c[1] + step[1], c[2] + step[2]};
     if (!l.inside(cube) || l.pool[l.at(cube[0], cube[1], cube[2])] != l.room) continue;
     const Point middle = l.middle(cube[0], cube[1], cube[2]);
-    if ((middle - at).dot(normal) > 0 && !l.surface->between(from, middle)) return true;
+    if ((middle - at).dot(normal) <= 0) continue;
+    if (!l.surface->between(from, middle)) return true;
+    if (++hidden == kMostHidden) return false;  // the room lies behind a sheet
   }
   return false;
 }
