@@ -4,7 +4,7 @@
 // First the common edge of two triangles in one plane is flipped where that makes the smallest of their angles greater
 // (Lawson 1977: what Delaunay triangles have). What is narrow then gets a point in the middle of an edge: of a strip
 // its longer side, else the one at the end of the path of longest edges from the narrow triangle (Rivara 1997, Int. J.
-// Numer. Methods Eng. 40:3313). Then edges are flipped again.
+// for Numerical Methods in Engineering 40:3313). Then edges are flipped again.
 #pragma once
 
 #include <array>

@@ -6,8 +6,9 @@
 // the vessel's volume is the one stated, within kMostVolumeDifference.
 //
 // Places of the grain: the closest packing of spheres a little larger than the largest grain, each moved at random
-// within the play that this leaves, those that are in the room, off every mesh and in no closed part that turns, one
-// in twenty left out at random, from the lowest up (places.csv). They fall by some tenth of the bed's height until they lie.
+// within the play that this leaves, those that are in the room, off every mesh and in no closed part that turns, one in
+// twenty left out at random, from the lowest up (places.csv). They fall by some tenth of the bed's height until they
+// lie.
 #pragma once
 
 #include "geometry/rig_geometry.h"
