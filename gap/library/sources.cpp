@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <map>
 #include <numeric>
 #include <set>
@@ -30,8 +31,12 @@ struct Sum {
   double sd() const { return n > 1 ? std::sqrt(squares / (n - 1)) : 0; }
 };
 
-// Torque of the paddles by sector, from phase_deg,paddle_Nm of phase.csv; empty for the whole drum.
+// Torque of the paddles by sector, from phase_deg,paddle_Nm of phase.csv; empty for the whole drum, and for a machine
+// whose parts have other names.
 std::array<double, kSectors> sector_shares(const std::string& path) {
+  std::string header;
+  std::getline(std::ifstream(path), header);
+  if (header.find(",paddle_Nm") == std::string::npos) return {};
   std::array<double, kSectors> sums{};
   double all = 0;
   bool whole_drum = false;
