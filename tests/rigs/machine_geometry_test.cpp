@@ -139,7 +139,9 @@ TEST_F(MachineGeometry, NoGrainInsideBodiesThatOverlap) {
   const std::vector<Vertex> grains = places();
   ASSERT_GT(grains.size(), 500u);
   for (const Vertex& p : grains)
-    if (p[0] > 0.02 && p[0] < 0.14) EXPECT_GE(std::hypot(p[1], p[2]), 0.06 * std::cos(pi / 24) + r - 1e-9);
+    if (p[0] > 0.02 && p[0] < 0.14) {
+      EXPECT_GE(std::hypot(p[1], p[2]), 0.06 * std::cos(pi / 24) + r - 1e-9);
+    }
 }
 
 // A shell of sheet 2 mm thick, thinner than a cube of the lattice, holds what its inside holds.
