@@ -83,6 +83,16 @@ void take(const fs::path& partial) {
         "another run is at work in {}; wait for its end, or name another folder with -var run", partial.string()));
 }
 
+fs::path opened;  // by this process, anew
+
+bool holds_results(const fs::path& partial) {
+  for (const auto& entry : fs::recursive_directory_iterator(partial)) {
+    const bool record = entry.path().extension() == ".csv" && entry.path().parent_path() == partial;
+    if (record || entry.path().extension() == ".restart") return true;
+  }
+  return false;
+}
+
 // Throws if a run was made with other parameters than those that hold now.
 void same_parameters(const nlohmann::json& run, const Values& now, const std::set<std::string>& apart) {
   for (const auto& [name, value] : run.at("parameters").items()) {
@@ -139,6 +149,15 @@ void RunFolder::open(nlohmann::json run) const {
   run["schema"] = 1;
   run["status"] = "running";
   write_json(fs::path(partial_) / "run.json", run);
+  opened = partial_;
+}
+
+void RunFolder::drop_opened() {
+  if (opened.empty()) return;
+  try {
+    if (!holds_results(opened)) fs::remove_all(opened);
+  } catch (const fs::filesystem_error&) {  // the refusal itself is what has to be told
+  }
 }
 
 std::string RunFolder::resume(const Values& parameters) const {

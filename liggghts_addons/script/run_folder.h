@@ -21,6 +21,9 @@ class RunFolder {
 
   // Makes FOLDER.partial anew with run.json. Refuses a folder that is there, and one that another process works in.
   void open(nlohmann::json run) const;
+  // A run that its script refuses: removes what `open` made in this process, unless it holds a record or a restart
+  // file.
+  static void drop_opened();
   // The newest restart file that is surely whole, of a run broken off with these parameters.
   std::string resume(const std::map<std::string, std::string>& parameters) const;
   // The bed of a complete run with these parameters, but for those of the names `apart`.

@@ -54,7 +54,7 @@ std::string joined(int narg, char** arg, int from) {
 void ViEltoCommand::command(int narg, char** arg) {
   const std::string what = narg > 0 ? arg[0] : "";
   if (what == "error" && narg > 1)
-    vielto::stop_all(lmp, joined(narg, arg, 1).c_str());
+    refuse(joined(narg, arg, 1));
   else if (what == "half_period" && narg == 6)
     half_period(narg, arg);
   else if (what == "repeat" && narg > 2)
@@ -102,6 +102,12 @@ void ViEltoCommand::set_variable(char* name, const char* value) {
   input->variable->set(3, set);
 }
 
+// Nothing that was not run stays behind.
+void ViEltoCommand::refuse(const std::string& line) {
+  if (comm->me == 0) vielto::RunFolder::drop_opened();
+  vielto::stop_all(lmp, line.c_str());
+}
+
 // Files are looked at by one processor only; all have to stop.
 void ViEltoCommand::stop_if(const std::string& faultOnRankZero) {
   std::string fault = faultOnRankZero;
@@ -110,7 +116,7 @@ void ViEltoCommand::stop_if(const std::string& faultOnRankZero) {
   if (length == 0) return;
   fault.resize(length);
   MPI_Bcast(&fault[0], length, MPI_CHAR, 0, world);
-  vielto::stop_all(lmp, fault.c_str());
+  refuse(fault);
 }
 
 void ViEltoCommand::property(int, char** arg) {

@@ -14,7 +14,8 @@
          provisional (1: a card says so); resuming, restarting (1: from restartFile); seed1 ... seed9, prime numbers from `seed`
      vielto close FOLDER                       mark run.json complete, keep the last restart file only and rename
                                                FOLDER.partial to FOLDER
-     vielto error TEXT...                      stop the run with this line (exit status 1)
+     vielto error TEXT...                      stop the run with this line (exit status 1); a run folder without a record
+                                               or a restart file is removed
      vielto half_period NAME radius R density RHO
                                                set variable NAME to the shortest half period of a contact, s, for grains of this
                                                radius (m) and density (kg/m3); needs the pair_style line and properties
@@ -63,6 +64,7 @@ class ViEltoCommand : protected Pointers {
   void pair_property(int narg, char** arg);
   void clump(int narg, char** arg);
   void set_variable(char* name, const char* value);
+  void refuse(const std::string& line);
   void stop_if(const std::string& faultOnRankZero);
   void place(int narg, char** arg);
   void grains(int narg, char** arg);

@@ -199,7 +199,8 @@ TEST_F(GeometryCommand, CheckTellsBinaryFilesThatBeginAsText) {
   EXPECT_EQ(outcome.status, 2);
   EXPECT_NE(outcome.text.find("volume 0.166667 m3 (normals outward)"), std::string::npos) << outcome.text;
   EXPECT_NE(outcome.text.find("is binary, but begins with 'solid'"), std::string::npos) << outcome.text;
-  std::string upper = good;
+  ASSERT_EQ(make(kMixer).status, 0);
+  std::string upper = content(folder / "mesh" / "paddle_2.stl");
   upper.replace(upper.find("solid"), 5, "Solid");
   write("upper.stl", upper);
   outcome = check("upper.stl");

@@ -207,7 +207,7 @@ TEST_F(MachineGeometry, RefusesFilesThatAreNone) {
   helix(text.substr(0, text.rfind("endsolid")));
   refused({"helix.stl, line ", "ends before 'endsolid': the file is cut off"});
   helix(binary.substr(0, binary.size() - 7));
-  refused({"helix.stl: is no STL file, or cut off", "triangles take"});
+  refused({"helix.stl: is no STL file, or cut off: its length is not that of its number of triangles"});
   helix("");
   refused({"helix.stl: is empty"});
   helix("solid x\nfacet normal 0 0 1\nouter loop\nvertex 0 0\nendloop\nendfacet\nendsolid x\n");

@@ -20,8 +20,11 @@ class Machine : public testing::Test {
  protected:
   Machine() : rig("machine") {}
 
+  // It ends two and a half grains before the drum's ends: nearer, it would press grain against them until it jams.
   std::string ribbon() {
-    RibbonMixer().write_to(rig.folder / "ribbon");
+    RibbonMixer mixer;
+    mixer.r0 = 0.06, mixer.start = 0.045, mixer.pitch = 0.064;
+    mixer.write_to(rig.folder / "ribbon");
     return "-var parts '" + (rig.folder / "ribbon/machine.toml").string() + "' ";
   }
   nlohmann::json posted(const std::string& run) {
@@ -55,7 +58,7 @@ TEST_F(Machine, PaddleMixerAsStlGivesThePaddleMixersTorque) {
     settings += " --set " + name + "=" + value;
     options += "-var " + name + " " + value + " ";
   }
-  mixer.must("its_own", coarse, options + "-var fill 0.15 -var settleTime 0.35 -var turns 6 ");
+  mixer.must("its_own", coarse, options + "-var fill 0.15 -var settleTime 0.35 -var turns 14 ");
   const Outcome evaluated = mixer.vielto("post its_own");
   ASSERT_EQ(evaluated.status, 0) << evaluated.text;
   const auto expected = nlohmann::json::parse(mixer.read("its_own/post/power.json"));
@@ -72,7 +75,7 @@ TEST_F(Machine, PaddleMixerAsStlGivesThePaddleMixersTorque) {
                         "[[part]]\nname = \"axle\"\nfile = \"shaft.stl\"\nmotion = \"turns\"\nopen = true\n"
                         "through = true\n");
   rig.must("as_stl", coarse,
-           fmt::format("-var parts '{}' -var mass {:.9g} -var powerLever 0.114 -var turns 6 ",
+           fmt::format("-var parts '{}' -var mass {:.9g} -var powerLever 0.114 -var turns 14 ",
                        (stl / "mixer.toml").string(), 0.15 * 0.01337 * 825));
   const auto told = posted("as_stl");
   const auto of = [](const nlohmann::json& power, const char* key) { return power[key].get<double>(); };
@@ -89,9 +92,11 @@ TEST_F(Machine, PaddleMixerAsStlGivesThePaddleMixersTorque) {
 
 /* Torque about the axis: rotor, drum and gravity leave nothing on the mean; work goes into what is lost and kept. Grain
    of mass m in a drum of radius R is lifted with a torque below m g R, and drum and rotor rub each other's grain with
-   no more than that again times tan(phi) (the weight is all that presses when hardly anything is thrown). */
+   no more than that again times tan(phi): the weight is all that presses at one turn a second, where the drum's radius
+   has a centripetal acceleration of 0.4 g. */
 TEST_F(Machine, RibbonTurnsGrainAndBalances) {
-  rig.must("ribbon_run", coarse, ribbon() + "-var fill 0.35 -var turns 5 -var energyBalance on -var powerLever 0.09 ");
+  rig.must("ribbon_run", coarse,
+           ribbon() + "-var speed 1 -var fill 0.35 -var turns 5 -var energyBalance on -var powerLever 0.09 ");
   const auto told = posted("ribbon_run");
   const double torque = told["torque_Nm"], power = told["power_W"], mass = told["quality"]["mass_kg"];
   const double weight = mass * 9.81 * 0.1;
@@ -102,8 +107,8 @@ TEST_F(Machine, RibbonTurnsGrainAndBalances) {
             3 * told["quality"]["torque_balance_u_Nm"].get<double>());
   EXPECT_EQ(told["quality"]["lost_grains"], 0);
   // P = 2 pi n T; N_P = P/(rho n^3 L^5) with the lever stated; the parts that turn make the rotor
-  EXPECT_NEAR(power, 2 * pi * 1.58 * torque, 1e-6 * power);
-  EXPECT_NEAR(told["N_P"], power / (825 * std::pow(1.58, 3) * std::pow(0.09, 5)), 1e-6 * told["N_P"].get<double>());
+  EXPECT_NEAR(power, 2 * pi * torque, 1e-6 * power);
+  EXPECT_NEAR(told["N_P"], power / (825 * std::pow(0.09, 5)), 1e-6 * told["N_P"].get<double>());
   double rotor = 0;
   for (const char* part : {"helix", "axle"}) rotor += told["parts"][part]["torque_Nm"].get<double>();
   EXPECT_NEAR(rotor, torque, 1e-9 * torque);
@@ -127,7 +132,7 @@ TEST_F(Machine, EmptyMachineIdles) {
   const std::string idle = "-var idleTorque 0.5 -var idleNoise 0.02 ";
   rig.must("idle", coarse, ribbon() + "-var fill 0 -var turns 5 " + idle);
   EXPECT_EQ(header("idle", "mass_kg"), "0");
-  rig.must("loaded", coarse, ribbon() + "-var fill 0.3 -var turns 2 " + idle);
+  rig.must("loaded", coarse, ribbon() + "-var fill 0.3 -var turns 4 " + idle);
   const Outcome done = rig.vielto("post loaded --idle idle");
   ASSERT_EQ(done.status, 0) << done.text;
   const auto told = nlohmann::json::parse(rig.read("loaded/post/power.json"));
@@ -183,18 +188,17 @@ TEST_F(Machine, IsPlannedForALibrary) {
 }
 
 TEST_F(Machine, RefusesARunThatCannotBe) {
-  // what is refused before it has a mesh leaves no folder at all
-  const auto refused = [&](const std::string& options, const std::string& why, bool meshed = false) {
+  // what is refused before anything was recorded leaves no folder
+  const auto refused = [&](const std::string& options, const std::string& why) {
     const Outcome done = rig.rig("bad", coarse, options);
     EXPECT_NE(done.status, 0) << options;
     EXPECT_NE(done.text.find(why), std::string::npos) << options << "\n" << done.text;
     EXPECT_FALSE(std::filesystem::exists(rig.folder / "bad"));
-    EXPECT_EQ(std::filesystem::exists(rig.folder / "bad.partial"), meshed);
-    std::filesystem::remove_all(rig.folder / "bad.partial");
+    EXPECT_FALSE(std::filesystem::exists(rig.folder / "bad.partial")) << options;
   };
   const std::string parts = ribbon();
-  refused(parts + "-var mass 9 ", "mass that cannot be placed: asked for ", true);
-  refused(parts + "-var mass 1e-4 ", "is less than half a grain", true);
+  refused(parts + "-var mass 9 ", "mass that cannot be placed: asked for ");
+  refused(parts + "-var mass 1e-4 ", "is less than half a grain");
   refused(parts + "-var fill 0.95 ", "fill is 0.95");
   refused(parts + "-var vesselVolume 0.5 ", "'vesselVolume' 0.5: the meshes hold ");
   refused(parts + "-var paddleCount 4 ", "paddleCount");

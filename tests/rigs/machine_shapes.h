@@ -125,11 +125,11 @@ inline void write(const std::filesystem::path& path, const std::string& text) {
 // vertices where the ribbon has none, so that the least distance is between the middle of a chord and the ribbon's
 // edge.
 struct RibbonMixer {
-  double R = 0.1, L = 0.16, r0 = 0.07, r1 = 0.096, t = 0.006, pitch = 0.13, shaft = 0.012;
+  double R = 0.1, L = 0.16, r0 = 0.07, r1 = 0.096, t = 0.006, start = 0.012, pitch = 0.13, shaft = 0.012;
   int chords = 48, segments = 36;
 
   Facets drum() const { return turned_round(cylinder(0, L, R, chords)); }
-  Facets blade() const { return ribbon(r0, r1, t, pitch, 0.012, segments, 2 * pi / segments); }
+  Facets blade() const { return ribbon(r0, r1, t, pitch, start, segments, 2 * pi / segments); }
   Facets axle() const { return cylinder(-0.02, L + 0.02, shaft, 24); }
 
   double drum_volume() const { return L * chords / 2.0 * R * R * std::sin(2 * pi / chords); }
