@@ -8,6 +8,7 @@
 #include "commands.h"
 #include "core/bad_input.h"
 #include "core/data_folder.h"
+#include "core/shell_word.h"
 
 namespace vielto {
 namespace {
@@ -53,10 +54,8 @@ void copy(const std::string& folder) {
   }
   // installed, our program has a name of its own (cmake/Install.cmake)
   const bool repository = fs::exists(source / "CMakeLists.txt");
-  fmt::print(
-      "cases, cards, libraries and studies: {0}\nfirst run: cd {0}/cases/mixer && {1} -in in.mixer -var run "
-      "results/first\n",
-      folder, repository ? "liggghts" : "liggghts-vielto");
+  fmt::print("cases, cards, libraries and studies: {}\nfirst run: cd {} && {} -in in.mixer -var run results/first\n",
+             folder, shell_word(folder + "/cases/mixer"), repository ? "liggghts" : "liggghts-vielto");
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 
 namespace vielto {
 
-// The whole command line, words apart by a blank.
+// The whole command line, quoted as a shell reads it back.
 std::string command_line();
 
 // Names given with -var (or -v).

@@ -4,6 +4,7 @@ libraries, manual pages, completion, find_package and pkg-config.
    install_test.py BUILD    the build folder"""
 import os
 import pathlib
+import shlex
 import shutil
 import subprocess
 import sys
@@ -52,7 +53,7 @@ with tempfile.TemporaryDirectory() as name:
     # a working copy, and a run in it by the installed program
     work = folder / "my work"
     said = run(["vielto", "copy", work], env=env)
-    assert f"first run: cd {work}/cases/mixer && liggghts-vielto -in in.mixer" in said, said
+    assert f"first run: cd {shlex.quote(f'{work}/cases/mixer')} && liggghts-vielto -in in.mixer" in said, said
     assert "is there already" in run(["vielto", "copy", work], status=2, env=env)
     mixer = work / "cases/mixer"
     small = (

@@ -8,6 +8,7 @@ import json
 import math
 import os
 import pathlib
+import shlex
 import shutil
 import sys
 import time
@@ -59,7 +60,7 @@ else:
             shutil.rmtree(path) if path.is_dir() else path.unlink()
     (partial / "restart").mkdir()
     hashes = {}
-    command = "liggghts " + " ".join(sys.argv[1:])
+    command = shlex.join(["liggghts", *sys.argv[1:]])
     (partial / "run.json").write_text(
         json.dumps({"command": command, "hashes": hashes, "parameters": var, "versions": {}})
     )

@@ -4,6 +4,7 @@ import hashlib
 import json
 import os
 import re
+import shlex
 import shutil
 
 from tools import ROOT, files, tables
@@ -43,7 +44,7 @@ def stale_runs(rigs, out, points):
 
 
 def _other_settings(point, made):
-    words = made["command"].split()
+    words = shlex.split(made["command"])
     said = dict(zip(words, words[1:]))  # a name of a -var is followed by its value
     for name, value in point.items():
         if name not in ("run", "rig", "bed") and said.get(name) != value:
