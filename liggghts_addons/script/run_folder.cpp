@@ -152,6 +152,13 @@ void RunFolder::open(nlohmann::json run) const {
   opened = partial_;
 }
 
+void RunFolder::add_hashes(const nlohmann::json& hashes) const {
+  const fs::path path = fs::path(partial_) / "run.json";
+  nlohmann::json run = nlohmann::json::parse(std::ifstream(path));
+  run["hashes"].update(hashes);
+  write_json(path, run);
+}
+
 void RunFolder::drop_opened() {
   if (opened.empty()) return;
   try {

@@ -21,6 +21,8 @@ class RunFolder {
 
   // Makes FOLDER.partial anew with run.json. Refuses a folder that is there, and one that another process works in.
   void open(nlohmann::json run) const;
+  // Adds to the hashes in run.json: file -> SHA-256.
+  void add_hashes(const nlohmann::json& hashes) const;
   // A run that its script refuses: removes what `open` made in this process, unless it holds a record or a restart
   // file.
   static void drop_opened();

@@ -69,6 +69,8 @@ void RunSetup::run(int ranks, const char* liggghts) {
                  {"hashes", hashes(script_on_command_line(), now)}});
     try {
       make_mesh(folder.partial() + "/mesh");
+      if (std::ifstream inputs(folder.partial() + "/mesh/inputs.json"); inputs)
+        folder.add_hashes(nlohmann::json::parse(inputs));
     } catch (...) {  // nothing has been run in it
       fs::remove_all(folder.partial());
       throw;

@@ -23,10 +23,12 @@
 
 #include <array>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "core/bad_input.h"
 #include "core/csv.h"
+#include "core/sha256.h"
 #include "geometry/stl.h"
 
 namespace vielto {
@@ -97,6 +99,12 @@ std::string geometry_par(const RigGeometry& geometry, const GeometryInput& input
   return text;
 }
 
+std::string inputs_json(const RigGeometry& geometry) {
+  nlohmann::ordered_json hashes;
+  for (const std::string& file : geometry.inputs) hashes[file] = sha256_of_file(file);
+  return hashes.dump(2) + "\n";
+}
+
 void write_geometry(const RigGeometry& geometry, const GeometryInput& input, const std::string& folder) {
   const fs::path out(folder);
   for (const std::string& file : geometry.inputs)
@@ -113,6 +121,7 @@ void write_geometry(const RigGeometry& geometry, const GeometryInput& input, con
     for (const auto& [name, text] : geometry.files) write_whole_file((out / name).string(), text);
     write_vtp(geometry, true, (out / "rotor.vtp").string());
     write_vtp(geometry, false, (out / "drum.vtp").string());
+    if (!geometry.inputs.empty()) write_whole_file((out / "inputs.json").string(), inputs_json(geometry));
     write_whole_file((out / "geometry.par").string(), geometry_par(geometry, input));
   } catch (...) {
     std::error_code ignored;

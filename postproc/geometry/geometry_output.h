@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // What `vielto geometry` leaves in a folder: one STL a part, geometry.par for LIGGGHTS, .vtp files and a picture for
-// people.
+// people; inputs.json, file -> SHA-256, if it was made from other files than a parameter file.
 #pragma once
 
 #include <string>

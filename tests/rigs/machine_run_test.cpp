@@ -3,6 +3,7 @@
 // a ribbon mixer from formulas keeps energy and torque; ranks, a break, the diagnosis, refusals.
 #include <nlohmann/json.hpp>
 
+#include "core/sha256.h"
 #include "machine_shapes.h"
 #include "rig_runner.h"
 
@@ -24,8 +25,8 @@ class Machine : public testing::Test {
   std::string ribbon() {
     RibbonMixer mixer;
     mixer.r0 = 0.06, mixer.start = 0.045, mixer.pitch = 0.064;
-    mixer.write_to(rig.folder / "ribbon");
-    return "-var parts '" + (rig.folder / "ribbon/machine.toml").string() + "' ";
+    mixer.write_to(own);
+    return "-var parts '" + (own / "machine.toml").string() + "' ";
   }
   nlohmann::json posted(const std::string& run) {
     const Outcome done = rig.vielto("post " + run + " --json");
@@ -41,6 +42,7 @@ class Machine : public testing::Test {
   }
 
   Rig rig;
+  const std::filesystem::path own = rig.folder / "mein Rührer";
 };
 
 }  // namespace
@@ -119,6 +121,13 @@ TEST_F(Machine, RibbonTurnsGrainAndBalances) {
   const std::string rows = rig.read("ribbon_run/post/observations.csv");
   EXPECT_NE(rows.find(",machine,power,"), std::string::npos) << rows;
   EXPECT_NE(rows.find(",machine,torque_ripple,"), std::string::npos) << rows;
+
+  // run.json tells how to make it again, and from which files
+  const auto made = nlohmann::json::parse(rig.read("ribbon_run/run.json"));
+  EXPECT_NE(made["command"].get<std::string>().find("-var parts '" + (own / "machine.toml").string() + "' "),
+            std::string::npos);
+  for (const char* file : {"machine.toml", "drum.stl", "helix.stl", "axle.stl"})
+    EXPECT_EQ(made["hashes"].value((own / file).string(), ""), vielto::sha256_of_file((own / file).string())) << file;
 
   const Outcome report = rig.vielto("report ribbon_run --out page --no-plots 2>&1");
   EXPECT_EQ(report.status, 0) << report.text;
@@ -203,6 +212,6 @@ TEST_F(Machine, RefusesARunThatCannotBe) {
   refused(parts + "-var vesselVolume 0.5 ", "'vesselVolume' 0.5: the meshes hold ");
   refused(parts + "-var paddleCount 4 ", "paddleCount");
   refused("-var parts nowhere.toml ", "nowhere.toml");
-  machine_shapes::write(rig.folder / "ribbon/helix.stl", "solid cut\nfacet normal 0 0 1\n");
+  machine_shapes::write(own / "helix.stl", "solid cut\nfacet normal 0 0 1\n");
   refused(parts, "helix.stl, line 2: ends before 'endsolid': the file is cut off");
 }

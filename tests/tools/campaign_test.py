@@ -2,6 +2,8 @@
 """scripts/campaign through its command line: a study of small mixer runs; killed with all that it started, and called
 again, it ends with the same tables to the last digit; bad studies are refused.
    campaign_test.py BIN    folder of our liggghts and vielto"""
+import hashlib
+import json
 import pathlib
 import shutil
 import subprocess
@@ -72,6 +74,24 @@ with tempfile.TemporaryDirectory(prefix="vielto-campaign-") as name:
     assert (
         abs(finished.share_done(folder, {"run": "a"}) - 0.25) < 1e-9 and finished.share_done(folder, {"run": "b"}) == 0
     )
+    # a machine's run is out of date when one of its STL files is another; a blank in their path is none
+    own = folder / "my mixer"
+    own.mkdir()
+    (own / "drum.stl").write_text("solid")
+    point = {"run": "m", "rig": "machine", "parts": str(own / "machine.toml")}
+    (folder / "runs/m").mkdir()
+    (folder / "runs/m/run.json").write_text(
+        json.dumps(
+            {
+                "command": f"liggghts -in in.machine -var parts '{own / 'machine.toml'}'",
+                "hashes": {str(own / "drum.stl"): hashlib.sha256(b"solid").hexdigest()},
+            }
+        )
+    )
+    assert list(finished.stale_runs(RIG_OF, folder, [point])) == []
+    (own / "drum.stl").write_text("other")
+    ((run, why),) = finished.stale_runs(RIG_OF, folder, [point])
+    assert run == "m" and "drum.stl" in why, why
     study = folder / "study.csv"
     study.write_text(STUDY)
     whole = subprocess.run(campaign(study, folder / "whole"), capture_output=True, text=True)
