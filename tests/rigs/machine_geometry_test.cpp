@@ -238,7 +238,7 @@ TEST_F(MachineGeometry, RefusesPartsThatDoNotFit) {
   RibbonMixer wide = mixer;
   wide.r1 = mixer.R + 0.001;
   stl("helix", wide.blade());
-  refused({"machine.toml: what turns meets what stands within a turn", "through = true"});
+  refused({"machine.toml: part helix meets drum within a turn, ", "through = true"});
   // it only meets the drum when it has turned: a nose in the drum's wall
   stl("helix", mixer.blade());
   Facets nosed = mixer.drum();
@@ -248,7 +248,7 @@ TEST_F(MachineGeometry, RefusesPartsThatDoNotFit) {
     nosed.push_back(up);
   }
   stl("drum", nosed);
-  refused({"what turns meets what stands"});
+  refused({"part helix meets drum within a turn"});
 
   stl("drum", mixer.drum());
   Facets outside = mixer.blade();

@@ -10,7 +10,6 @@
 #include <random>
 
 #include "core/bad_input.h"
-#include "core/sha256.h"
 #include "geometry/bodies.h"
 #include "geometry/room.h"
 #include "rigs/machine/machine_parts.h"
@@ -18,10 +17,11 @@
 namespace vielto {
 namespace {
 
-constexpr double kPlay = 1.03;                // distance of places over the largest grain's diameter
-constexpr double kLeftOut = 0.05;             // share of places
-constexpr double kDensestBed = 0.74;          // bulk over grain density: no bed is denser
-constexpr double kClearanceTolerance = 5e-4;  // of the rotor's radius
+constexpr double kPlay = 1.03;                        // distance of places over the largest grain's diameter
+constexpr double kLeftOut = 0.05;                     // share of places
+constexpr double kDensestBed = 0.74;                  // bulk over grain density: no bed is denser
+constexpr double kWedgedFrom = 0.3, kWedgedTo = 1.5;  // clearance over the grain's diameter
+constexpr double kClearanceTolerance = 5e-4;          // of the rotor's radius
 
 struct Bed {
   double fill = 0, mass = 0;         // of the vessel's volume; kg, in its place if not 0
@@ -67,16 +67,31 @@ std::vector<Point> points_of(const Triangles& triangles) {
   return points;
 }
 
+// The two parts that come nearest to each other: what turns, what stands.
+std::pair<std::string, std::string> nearest_parts(const MachineParts& machine, double tolerance) {
+  std::pair<std::string, std::string> names;
+  double least = INFINITY;
+  for (const MachinePart& turning : machine.parts)
+    for (const MachinePart& standing : machine.parts) {
+      if (!turning.turns || turning.through || standing.turns) continue;
+      const double gap =
+          turn_clearance(standing.mesh.triangles, turning.mesh.triangles, machine.axis, tolerance).distance;
+      if (gap < least) least = gap, names = {turning.name, standing.name};
+    }
+  return names;
+}
+
 std::optional<TurnClearance> checked_clearance(const MachineParts& machine, const Rotor& rotor) {
   if (rotor.free.empty()) return {};
   const TurnClearance gap =
       turn_clearance(machine.of(false), rotor.free, machine.axis, std::max(2e-6, kClearanceTolerance * rotor.radius));
-  if (gap.distance <= gap.tolerance)
-    throw BadInput(
-        machine.path, 0,
-        fmt::format("what turns meets what stands within a turn, {:.4g} m along the axis and {:.4g} m from it", gap.s,
-                    gap.r),
-        "mend axis, unit or parts; a shaft that runs through a wall is marked through = true");
+  if (gap.distance <= gap.tolerance) {
+    const auto [turning, standing] = nearest_parts(machine, gap.tolerance);
+    throw BadInput(machine.path, 0,
+                   fmt::format("part {} meets {} within a turn, {:.4f} m along the axis and {:.4f} m from it", turning,
+                               standing, gap.s, gap.r),
+                   "mend axis, unit or parts; a shaft that runs through a wall is marked through = true");
+  }
   return gap;
 }
 
@@ -184,7 +199,6 @@ nlohmann::ordered_json told(const MachineParts& machine, const Room& room, const
   for (const MachinePart& part : machine.parts) {
     const Measure& m = part.mesh.measure;
     parts[part.name] = {{"file", part.file},
-                        {"sha256", sha256_of_file(part.file)},
                         {"turns", part.turns},
                         {"triangles", m.triangles},
                         {"area_m2", m.area},
@@ -260,9 +274,13 @@ RigGeometry machine_geometry(GeometryInput& input) {
         fmt::format("least clearance over a turn {:.3f} mm (to {:.3f} mm), {:.3g} m along the axis and "
                     "{:.3g} m from it",
                     gap->distance * 1e3, gap->tolerance * 1e3, gap->s, gap->r));
-    if (gap->distance > 0.3 * bed.diameter && gap->distance < 1.5 * bed.diameter)
-      g.notes.push_back(fmt::format("note: the clearance is {:.2g} grain diameters, where grain gets wedged",
-                                    gap->distance / bed.diameter));
+    if (gap->distance > kWedgedFrom * bed.diameter && gap->distance < kWedgedTo * bed.diameter)
+      g.notes.push_back(
+          fmt::format("note: the clearance is {:.2g} grain diameters; from {} to {} grain gets wedged: take "
+                      "grainDiameter over {:.3g} "
+                      "or below {:.2g}",
+                      gap->distance / bed.diameter, kWedgedFrom, kWedgedTo, gap->distance / kWedgedFrom,
+                      gap->distance / kWedgedTo));
   }
   std::vector<Point> found;
   if (!bed.empty()) {

@@ -84,7 +84,7 @@ MachinePart read_part(const TomlTable& stated, const std::filesystem::path& fold
   const std::set<std::string> taken = {"gravity", "idle", "rotor", "paddle"};
   if (!std::regex_match(part.name, std::regex("[A-Za-z][A-Za-z0-9_]{0,30}")) || taken.count(part.name))
     stated.refuse("name", fmt::format("'{}' is no name of a part", part.name),
-                  "write a word of letters, digits and _ that begins with a letter and is not gravity, idle, rotor or "
+                  "write a word of a-z, A-Z, 0-9 and _ that begins with a letter and is not gravity, idle, rotor or "
                   "paddle");
   const std::string motion = stated.text("motion");
   if (motion != "turns" && motion != "stands") stated.refuse("motion", "is unknown", "write turns or stands");

@@ -7,7 +7,7 @@
 //   origin = [0, 0, 0]
 //   direction = [1, 0, 0]
 //   [[part]]                        as many as there are
-//   name = "blades"                 any word of letters, digits and _
+//   name = "blades"                 any word of a-z, A-Z, 0-9 and _
 //   file = "blades.stl"             from this file's folder
 //   motion = "turns"                or "stands"
 //   open = true                     optional: edges with one triangle are meant (a sheet, a vessel without lid)
