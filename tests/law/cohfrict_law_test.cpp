@@ -33,6 +33,22 @@ TEST(CohFrictMixing, GivesTheContactsConstants) {
   expect_relative(c.shearAdhesion, 1e4 * kR1 * kR1);
 }
 
+// As above, with a twisting stiffness and limit on both: alpha_ktw = 2 * 0.3 * 0.6/0.9 = 0.4.
+TEST(CohFrictMixing, GivesTheTwistsConstants) {
+  cohfrict::Material a = kOne, b = kTwo;
+  a.alphaKtw = 0.3, b.alphaKtw = 0.6;
+  a.etaTwist = 0.3, b.etaTwist = 0.1;
+  cohfrict::Contact c = cohfrict::contact(cohfrict::mix(a, b), kR1, kR2);
+  expect_relative(c.ktw, 0.4 * 2000 * kR1 * kR2);
+  expect_relative(c.twistingArm, 0.1 * kR2);  // 0.6 mm against 0.9 mm
+  b.etaTwist = 0.5;
+  c = cohfrict::contact(cohfrict::mix(a, b), kR1, kR2);
+  expect_relative(c.twistingArm, 0.3 * kR1);  // 0.9 mm against 3 mm
+  a.etaRoll = 0.01;
+  c = cohfrict::contact(cohfrict::mix(a, b), kR1, kR2);
+  expect_relative(c.rollingArm, 0.01 * kR1);  // 0.03 mm against 0.12 mm
+}
+
 TEST(CohFrictMixing, OrderOfTheBodiesDoesNotMatter) {
   const cohfrict::Contact c = cohfrict::contact(cohfrict::mix(kOne, kTwo), kR1, kR2);
   const cohfrict::Contact d = cohfrict::contact(cohfrict::mix(kTwo, kOne), kR2, kR1);
@@ -60,6 +76,7 @@ TEST(CohFrictSlip, HasTheStatedLevers) {
   const double u = 9e-4;
   expect_relative(cohfrict::slip(n, v, still, still, kR1, kR2, u, true).x, 9 / 8.1);
   expect_relative(cohfrict::slip(n, v, still, still, kR1, kR2, u, false).x, 1);
+  EXPECT_EQ(cohfrict::slip(n, v, still, still, kR1, kR2, u, false).z, 0);  // what goes along n is no slip
   // n x w = (-w_y, w_x, 0)
   expect_relative(cohfrict::slip(n, still, w1, w2, kR1, kR2, u, true).x, -100 * kR1 + 40 * kR2);
   expect_relative(cohfrict::slip(n, still, w1, w2, kR1, kR2, u, false).x, -100 * (kR1 - u / 2) + 40 * (kR2 - u / 2));
@@ -77,6 +94,7 @@ struct Step {
 };
 
 bool take(const Step& step, cohfrict::Memory& memory, cohfrict::Load& load, const cohfrict::Contact& c = simple()) {
+  // in one second, so that the rates of the motion are its amounts
   const cohfrict::Motion m = {{0, 0, 1}, step.overlap, {step.slip, 0, 0}, {0, step.roll, 0}, step.twist, 0};
   return advance(c, m, 1.0, memory, load);
 }
@@ -167,6 +185,76 @@ TEST(CohFrictEnergy, OfABondThatTearsIsLetGo) {
   EXPECT_EQ(energy.elastic, 0);
 }
 
+// What the springs hold when a contact ends, of all four: F^2/(2 k) each. A spring that is not there holds nothing.
+TEST(CohFrictEnergy, OfAContactThatEndsIsThatOfItsSprings) {
+  cohfrict::Contact c = simple();  // k 1000, 500 N/m, 2, 3 N m
+  for (const bool with_moments : {true, false}) {
+    if (!with_moments) c.kr = c.ktw = 0;
+    cohfrict::Memory memory = {{0.02, 0, 0}, {0, 3e-4, 4e-4}, 6e-4, true};
+    cohfrict::Load load;
+    cohfrict::Energy energy;
+    const cohfrict::Motion m = {{0, 0, 1}, -0.201e-3, {0, 0, 0}, {0, 0, 0}, 0, 0};
+    EXPECT_FALSE(advance(c, m, 1.0, memory, load, &energy));
+    const double moments = with_moments ? 5e-4 * 5e-4 / 4 + 6e-4 * 6e-4 / 6 : 0;
+    expect_relative(energy.sliding, 0.201 * 0.201 / 2000 + 0.02 * 0.02 / 1000 + moments);
+    EXPECT_EQ(energy.elastic, 0);
+  }
+}
+
+// A contact without a bond ends where it parts, and has no normal force to let go of then.
+TEST(CohFrictEnergy, OfATouchThatEndsIsThatOfItsShear) {
+  cohfrict::Memory memory = {{0.02, 0, 0}, {0, 0, 0}, 0, false};
+  cohfrict::Load load;
+  cohfrict::Energy energy;
+  const cohfrict::Motion m = {{0, 0, 1}, -1e-6, {0, 0, 0}, {0, 0, 0}, 0, 0};
+  EXPECT_FALSE(advance(simple(), m, 1.0, memory, load, &energy));
+  expect_relative(energy.sliding, 0.02 * 0.02 / 1000);
+}
+
+// Stretched by F_n = -0.1 N, a shear of 0.5 N breaks the bond: all is let go, -0.1 N in the spring before the step and
+// the slip, whose force goes from 0.02 N to none: its mean 0.01 N times the slip of 0.5/500 m, and what was held.
+TEST(CohFrictEnergy, OfABondThatBreaksWhileStretchedIsLetGo) {
+  cohfrict::Memory memory = {{-0.02, 0, 0}, {0, 0, 0}, 0, true};
+  cohfrict::Load load;
+  cohfrict::Energy energy;
+  const cohfrict::Motion m = {{0, 0, 1}, -1e-4, {1e-3, 0, 0}, {0, 0, 0}, 0, 0};
+  ASSERT_TRUE(advance(simple(), m, 1.0, memory, load, &energy));
+  EXPECT_EQ(energy.elastic, 0);
+  expect_relative(energy.sliding, 0.1 * 0.1 / 2000 + 0.5 * 0.02 * 1e-3 + 0.02 * 0.02 / 1000);
+}
+
+// The twist as the roll above: trial 9e-4 N m over 8e-4 N m; k_tw = 3 N m.
+TEST(CohFrictEnergy, OfATwistThatIsCappedIsItsMeanMomentTimesTheAngle) {
+  cohfrict::Memory memory = fresh(false);
+  cohfrict::Load load;
+  cohfrict::Energy energy;
+  const auto step = [&](double twist) {
+    const cohfrict::Motion m = {{0, 0, 1}, 4e-4, {0, 0, 0}, {0, 0, 0}, twist, 0};
+    return advance(simple(), m, 1.0, memory, load, &energy);
+  };
+  ASSERT_TRUE(step(1e-4));  // 3e-4 N m
+  expect_relative(energy.elastic, 0.4 * 0.4 / 2000 + 3e-4 * 3e-4 / 6);
+  EXPECT_NEAR(energy.twisting, 0, kRounding);
+  ASSERT_TRUE(step(2e-4));
+  EXPECT_NEAR(energy.twisting, (9e-4 - 8e-4) * (3e-4 + 8e-4) / (2 * 3), 1e-3 * kRounding);
+  expect_relative(energy.elastic, 0.4 * 0.4 / 2000 + 8e-4 * 8e-4 / 6);
+}
+
+// A motion of 0.25 s at four times the rate is that of one second.
+TEST(CohFrictStep, TakesRatesTimesItsLength) {
+  cohfrict::Memory memory = fresh(true);
+  cohfrict::Load load;
+  cohfrict::Energy energy;
+  const cohfrict::Motion m = {{0, 0, 1}, 4e-4, {4 * 2e-4, 0, 0}, {0, 4 * 1e-4, 0}, 4 * 1e-5, 0};
+  ASSERT_TRUE(advance(simple(), m, 0.25, memory, load, &energy));
+  expect_relative(load.shear.x, -500 * 2e-4);
+  expect_relative(load.moment.y, -2 * 1e-4);
+  expect_relative(load.moment.z, -3 * 1e-5);
+  EXPECT_NEAR(energy.sliding, 0, kRounding);
+  EXPECT_NEAR(energy.rolling, 0, kRounding);
+  EXPECT_NEAR(energy.twisting, 0, kRounding);
+}
+
 TEST(CohFrictMoments, AreLimitedByTheNormalForceOfEitherSign) {
   for (const double overlap : {2e-4, -1e-4}) {  // F_n = 0.2 and -0.1 N
     const double F = std::fabs(1000 * overlap);
@@ -203,6 +291,9 @@ TEST(CohFrictStretch, IsNeverMoreThanItsBound) {
       EXPECT_LE(stretch, bound * (kR1 + R2));
       EXPECT_LE(stretch, bound * kR1);
     }
+  // of two alike, k_n = E R and a_n = C R^2: at a wall of the same radius it is the bound
+  const cohfrict::Contact alike = cohfrict::contact(cohfrict::mix(kOne, kOne), kR1, kR1);
+  expect_relative(alike.normalAdhesion / alike.kn, cohfrict::stretch_bound(1e4, 1e6) * kR1);
 }
 
 }  // namespace
