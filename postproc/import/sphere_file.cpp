@@ -2,15 +2,6 @@
 #include "import/sphere_file.h"
 
 #include <fmt/format.h>
-#include <vtkDataArray.h>
-#include <vtkNew.h>
-#include <vtkObject.h>
-#include <vtkPointData.h>
-#include <vtkPointSet.h>
-#include <vtkPolyData.h>
-#include <vtkUnstructuredGrid.h>
-#include <vtkXMLPolyDataReader.h>
-#include <vtkXMLUnstructuredGridReader.h>
 
 #include <cmath>
 #include <filesystem>
@@ -18,37 +9,10 @@
 
 #include "core/bad_input.h"
 #include "import/column_text.h"
+#include "import/vtk_spheres.h"
 
 namespace vielto {
 namespace {
-
-template <class Reader>
-std::vector<Grain> read_vtk(const std::string& path) {
-  // VTK would print its own words about a broken file
-  vtkObject::GlobalWarningDisplayOff();
-  vtkNew<Reader> reader;
-  if (!reader->CanReadFile(path.c_str()))
-    throw BadInput(path, 0, "is no VTK file of its kind", "name a file that VTKRecorder wrote with 'spheres'");
-  reader->SetFileName(path.c_str());
-  reader->Update();
-  vtkPointSet* points = reader->GetOutput();
-  if (reader->GetErrorCode() != 0 || points->GetNumberOfPoints() == 0)
-    throw BadInput(path, 0, "holds no grains that can be read",
-                   "name a whole file that VTKRecorder wrote with 'spheres'");
-  vtkDataArray* radii = points->GetPointData()->GetArray("radii");
-  if (!radii) radii = points->GetPointData()->GetArray("radius");
-  if (!radii)
-    throw BadInput(path, 0, "has no array 'radii' at its points",
-                   "name the file of the spheres (NAME-spheres.STEP.vtu)");
-  std::vector<Grain> grains;
-  for (vtkIdType i = 0; i < points->GetNumberOfPoints(); ++i) {
-    Grain grain{};
-    points->GetPoint(i, grain.x.data());
-    grain.radius = radii->GetComponent(i, 0);
-    grains.push_back(grain);
-  }
-  return grains;
-}
 
 std::vector<Grain> read_text(const std::string& path) {
   std::string first;
@@ -69,8 +33,8 @@ std::vector<Grain> read_spheres(const std::string& path, double factor) {
   const std::filesystem::path file(path);
   if (!std::filesystem::is_regular_file(file)) throw BadInput(path, 0, "cannot be read", "name an existing file");
   const std::string kind = file.extension().string();
-  std::vector<Grain> grains = kind == ".vtu"   ? read_vtk<vtkXMLUnstructuredGridReader>(path)
-                              : kind == ".vtp" ? read_vtk<vtkXMLPolyDataReader>(path)
+  std::vector<Grain> grains = kind == ".vtu"   ? read_vtk_spheres(path, "UnstructuredGrid")
+                              : kind == ".vtp" ? read_vtk_spheres(path, "PolyData")
                                                : read_text(path);
   for (std::size_t i = 0; i < grains.size(); ++i) {
     Grain& g = grains[i];

@@ -5,11 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <random>
 #include <sstream>
 #include <string>
+#include <vector>
 
 #include "core/observation_table.h"
 #include "tests/cli/command_test.h"
@@ -44,6 +46,18 @@ struct YadePlot {
     return out.str();
   }
 };
+
+std::string base64(const std::string& bytes) {
+  const char* const letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    std::uint32_t three = 0;
+    for (std::size_t k = 0; k < 3; ++k)
+      three = three << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0u);
+    for (std::size_t k = 0; k < 4; ++k) text += i + k < bytes.size() + 1 ? letters[three >> (18 - 6 * k) & 63] : '=';
+  }
+  return text;
+}
 
 class ImportYade : public vielto_test::CommandTest {
  protected:
@@ -185,6 +199,122 @@ TEST_F(ImportYade, BulkDensityFromYadesFiles) {
   // the volume a sphere, 512 spheres) and the grid in a cut sphere (1 %).
   ASSERT_EQ(import("--bed '" + kData + "grains.txt' --grain-density 1375 --box 0 0.08 0 0.08 0 0.08"), 0) << err_;
   EXPECT_NEAR(rows()[0].value / (1375 * volume / 1e-3), 1, 0.015);
+}
+
+// Four spheres of 5 to 8 mm in VTK's other forms: text, base64 within, raw bytes appended (the other byte order, wide
+// heads, in two pieces).
+TEST_F(ImportYade, BulkDensityFromVtkFilesOfEveryForm) {
+  const std::vector<double> places = {0.01, 0.01, 0.01, 0.05, 0.01, 0.01, 0.01, 0.05, 0.01, 0.05, 0.05, 0.05};
+  const std::vector<double> radii = {0.005, 0.006, 0.007, 0.008};
+  double volume = 0;
+  for (const double r : radii) volume += 4.0 / 3 * kPi * r * r * r;
+  const auto spheres = [&](const std::string& file) {
+    ASSERT_EQ(import("--bed " + file + " --grain-density 1375 --box 0 0.1 0 0.1 0 0.1"), 0) << err_;
+    EXPECT_NEAR(rows()[0].value / (1375 * volume / 1e-3), 1, 1e-6) << file;
+    fs::remove(folder_ / "table.csv");
+  };
+  const auto text = [](const std::vector<double>& numbers) {
+    std::string all;
+    for (const double x : numbers) all += std::to_string(x) + " ";
+    return all;
+  };
+  write("text.vtp",
+        "<VTKFile type=\"PolyData\" version=\"0.1\"><PolyData><Piece NumberOfPoints=\"4\"><PointData>"
+        "<DataArray type=\"Float64\" Name=\"radius\" format=\"ascii\">" +
+            text(radii) +
+            "</DataArray></PointData><Points><DataArray type=\"Float32\" NumberOfComponents=\"3\" format=\"ascii\">" +
+            text(places) + "</DataArray></Points></Piece></PolyData></VTKFile>");
+  spheres("text.vtp");
+
+  const auto inline_array = [](const std::vector<double>& numbers) {
+    const auto size = static_cast<std::uint32_t>(8 * numbers.size());
+    std::string bytes(reinterpret_cast<const char*>(&size), 4);
+    bytes.append(reinterpret_cast<const char*>(numbers.data()), size);
+    return base64(bytes);
+  };
+  write("inline.vtu",
+        "<VTKFile type=\"UnstructuredGrid\" version=\"0.1\" byte_order=\"LittleEndian\"><UnstructuredGrid>"
+        "<Piece NumberOfPoints=\"4\" NumberOfCells=\"0\"><Points>"
+        "<DataArray type=\"Float64\" NumberOfComponents=\"3\" format=\"binary\">\n" +
+            inline_array(places) +
+            "\n</DataArray></Points><PointData><DataArray type=\"Float64\" Name=\"radii\" format=\"binary\">\n" +
+            inline_array(radii) + "\n</DataArray></PointData></Piece></UnstructuredGrid></VTKFile>");
+  spheres("inline.vtu");
+
+  std::string bytes, pieces;
+  const auto append = [&](std::string word) {
+    std::reverse(word.begin(), word.end());
+    bytes += word;
+  };
+  const auto appended = [&](const std::vector<double>& numbers) {
+    const std::string offset = " format=\"appended\" offset=\"" + std::to_string(bytes.size()) + "\"/>";
+    const std::uint64_t size = 4 * numbers.size();
+    append({reinterpret_cast<const char*>(&size), 8});
+    for (const double number : numbers) {
+      const auto x = static_cast<float>(number);
+      append({reinterpret_cast<const char*>(&x), 4});
+    }
+    return offset;
+  };
+  for (int k = 0; k < 2; ++k)
+    pieces += "<Piece NumberOfPoints=\"2\"><Points><DataArray type=\"Float32\" NumberOfComponents=\"3\"" +
+              appended({places.begin() + 6 * k, places.begin() + 6 * k + 6}) +
+              "</Points><PointData><DataArray type=\"Float32\" Name=\"radii\"" +
+              appended({radii.begin() + 2 * k, radii.begin() + 2 * k + 2}) + "</PointData></Piece>";
+  write("raw.vtu",
+        "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"BigEndian\" header_type=\"UInt64\">"
+        "<UnstructuredGrid>" +
+            pieces + "</UnstructuredGrid><AppendedData encoding=\"raw\">_" + bytes + "</AppendedData></VTKFile>");
+  spheres("raw.vtu");
+}
+
+// Found by fuzzing: a file of 18 kB whose head speaks of gigabytes. With less memory than that it is still refused in
+// one line.
+TEST_F(ImportYade, RefusesSizesThatAVtkFileCannotHold) {
+  const std::string vtu = content(kData + "grains-spheres.0.vtu");
+  const std::size_t at = vtu.find('_', vtu.find("<AppendedData")) + 1;
+  const auto refused = [&](const std::string& text, const std::string& what) {
+    write("grains.vtu", text);
+    EXPECT_EQ(
+        run("ulimit -v 4000000; '" VIELTO_BIN_DIR "/vielto' import yade --out table.csv --test A --bed grains.vtu "
+            "--angle drum"),
+        2);
+    EXPECT_NE(err_.find(what), std::string::npos) << "expected: " << what << "\ngot: " << err_;
+    EXPECT_EQ(std::count(err_.begin(), err_.end(), '\n'), 1) << err_;
+  };
+  const auto with_points = [&](const std::string& number) {
+    std::string text = vtu;
+    text.replace(text.find("NumberOfPoints=\"1000\""), 21, "NumberOfPoints=\"" + number + "\"");
+    return text;
+  };
+  refused(with_points("1000000000"), "has 18338 bytes, but says that it holds 3000000000 numbers of one kind");
+  refused(with_points("1001"), "its sizes contradict one another");
+  refused(with_points("-1"), "has no number of points");
+  refused(with_points("x"), "has no number of points");
+  // the radii's head: number of blocks, bytes of a block, of the last block, compressed bytes of the block
+  const std::vector<std::uint32_t> head = {1, 32768, 8000, 7369};
+  const auto with_head = [&](std::vector<std::uint32_t> words) {
+    const std::string bytes(reinterpret_cast<const char*>(words.data()), 16);
+    return vtu.substr(0, at) + base64(bytes) + vtu.substr(at + 24);
+  };
+  EXPECT_EQ(with_head(head), vtu);
+  for (const std::size_t changed : {0, 2, 3}) {
+    auto words = head;
+    words[changed] = 4000000000;
+    refused(with_head(words), "is cut off, or its sizes contradict one another");
+  }
+  refused(with_head({1, 0, 8000, 7369}), "its sizes contradict one another");
+  refused(with_head({2, 2147483648, 8000, 7369}), "its sizes contradict one another");
+  refused(with_head({1, 32768, 8000, 7368}), "holds less than its number of points says");
+  // cells are none of ours
+  std::string cells = vtu;
+  cells.replace(cells.find("NumberOfCells=\"1000\""), 20, "NumberOfCells=\"1000000000\"");
+  write("grains.vtu", cells);
+  EXPECT_EQ(import("--bed grains.vtu --grain-density 1375 --box -0.005 0.095 -0.005 0.095 -0.005 0.095"), 0) << err_;
+  // elements within elements are no end of memory either
+  std::string deep;
+  for (int i = 0; i < 200000; ++i) deep += "<a>";
+  refused("<VTKFile type=\"UnstructuredGrid\">" + deep, "is no VTK file of its kind");
 }
 
 // One grain in each strip (three radii wide) on a line of 20 degrees, every other one 1 mm too high, in the second
