@@ -246,6 +246,7 @@ void add_sources(const json& sources, Page& page) {
        {std::pair("part",
                   "Parts of the rotor's torque; drum: what its wall takes back, the rest is the weight of the "
                   "grain."),
+        std::pair("standing", "What the parts that stand take back."),
         std::pair("phase",
                   "The paddles' torque by the place of a paddle in its turn; 0 deg is the lowest point, from "
                   "which it rises."),

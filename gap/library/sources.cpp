@@ -31,6 +31,8 @@ struct Sum {
   double sd() const { return n > 1 ? std::sqrt(squares / (n - 1)) : 0; }
 };
 
+constexpr const char* kDrum = "drum";  // the mixer's, which stands
+
 // Torque of the paddles by sector, from phase_deg,paddle_Nm of phase.csv; empty for the whole drum, and for a machine
 // whose parts have other names.
 std::array<double, kSectors> sector_shares(const std::string& path) {
@@ -95,12 +97,16 @@ std::string sources_of_run(const std::string& test, const nlohmann::json& power,
   const auto add = [&](const char* kind, const std::string& source, double torque) {
     rows += fmt::format("{},{},{},{:.6g}\n", test, kind, source, torque);
   };
-  for (const auto& [part, torque] : power["parts"].items()) add("part", part, torque["torque_Nm"].get<double>());
+  for (const auto& [part, torque] : power.at("parts").items()) {
+    const bool drum = part == kDrum, turns = torque.value("turns", !drum);  // older results lack it
+    add(turns || drum ? "part" : "standing", turns && drum ? "turning drum" : part,
+        torque.at("torque_Nm").get<double>());
+  }
   if (std::filesystem::exists(phase_file)) {
     const auto shares = sector_shares(phase_file);
-    const double paddles = power["parts"]["paddles"]["torque_Nm"].get<double>();
     const bool any = std::any_of(shares.begin(), shares.end(), [](double share) { return share != 0; });
-    for (std::size_t k = 0; any && k < kSectors; ++k) add("phase", sector_name(k), paddles * shares[k]);
+    for (std::size_t k = 0; any && k < kSectors; ++k)
+      add("phase", sector_name(k), power.at("parts").at("paddles").at("torque_Nm").get<double>() * shares[k]);
   }
   if (power.contains("losses") && power["losses"].is_object())
     for (const auto& [loss, value] : power["losses"].items())
@@ -115,8 +121,7 @@ nlohmann::ordered_json sources_json(const Library& library, const std::vector<st
   if (!std::filesystem::exists(path)) return result;
   std::map<std::string, const Observation*> row_of;
   std::map<std::string, const Run*> run_of;
-  for (const LibraryValue& v : library.values)
-    if (v.row.apparatus == "mixer") row_of[library.runs[v.run].test] = &v.row;
+  for (const LibraryValue& v : library.values) row_of[library.runs[v.run].test] = &v.row;
   for (const Run& r : library.runs) run_of[r.test] = &r;
 
   // condition -> kind and source -> baseline, and -> effect -> strength -> source
@@ -128,6 +133,7 @@ nlohmann::ordered_json sources_json(const Library& library, const std::vector<st
     std::map<std::string, std::map<double, std::map<Source, Sum>>> effects;
   };
   std::map<std::string, Place> places;
+  const auto name_of = [](const Observation& row) { return row.apparatus + " " + conditions_text(row); };
   std::map<std::string, double> rotor_of_run;
   read_columns(path, {"test", "kind", "source", "torque_Nm"}, [&](int number, const std::vector<std::string_view>& f) {
     const double torque = column_number(path, number, "torque_Nm", f[3]);
@@ -135,20 +141,19 @@ nlohmann::ordered_json sources_json(const Library& library, const std::vector<st
     const Source source(f[1], f[2]);
     const auto row = row_of.find(test);
     if (row == row_of.end())
-      throw BadInput(path, number, fmt::format("'{}' is no mixer run of design.csv", test),
-                     "collect the library again");
-    Place& place = places[conditions_text(*row->second)];
+      throw BadInput(path, number, fmt::format("'{}' is no run of design.csv", test), "collect the library again");
+    Place& place = places[name_of(*row->second)];
     place.row = row->second;
     const Run& run = *run_of.at(test);
     if (run.baseline()) {
       place.baseline[source].add(torque);
-      if (source.first == "part" && source.second != "drum") rotor_of_run[test] += torque;
+      if (source.first == "part" && source.second != kDrum) rotor_of_run[test] += torque;
     } else if (run.effects.size() == 1 && run.nominal) {
       const auto& [effect, strength] = *run.effects.begin();
       place.effects[effect][strength][source].add(torque);
     }
   });
-  for (const auto& [test, torque] : rotor_of_run) places[conditions_text(*row_of.at(test))].rotor.add(torque);
+  for (const auto& [test, torque] : rotor_of_run) places[name_of(*row_of.at(test))].rotor.add(torque);
 
   for (const auto& [name, place] : places) {
     if (!(place.rotor.mean > 0)) continue;

@@ -33,7 +33,8 @@ Json power_json(const MixingPower& p) {
   const TorqueRecordHeader& h = p.header;
   Json parts;
   for (std::size_t i = 0; i < p.parts.size(); ++i)
-    parts[p.part_names[i].name] = {{"torque_Nm", p.parts[i].mean}, {"torque_u_Nm", p.parts[i].u}};
+    parts[p.part_names[i].name] = {
+        {"torque_Nm", p.parts[i].mean}, {"torque_u_Nm", p.parts[i].u}, {"turns", p.part_names[i].turns}};
   Json losses;
   if (p.losses)
     for (std::size_t i = 0; i < kLosses.size(); ++i) losses[kLosses[i]] = {{"power_W", (*p.losses)[i]}};

@@ -247,6 +247,45 @@ TEST_F(GapLibraryPlan, CollectsWhatIsDoneAndNamesTheRest) {
 
 // A bench row that goes with calibrated parameters is stated for each member too: half a degree of the wall for one of
 // the grain.
+// A machine of one's own: its parts have any names, one that turns may be called drum, and no paddle's torque is kept
+// by its place. Found on a real library of a stranger's mixer, which could not be collected.
+TEST_F(GapLibraryPlan, CollectsAMachinesRunsWithItsOwnParts) {
+  write("library/plan.toml",
+        "seeds = 6\n[[rig]]\nname = \"machine\"\nsettings = {parts = \"/home/me/my mixer/machine.toml\"}\n"
+        "conditions = [{speed = 0.8, fill = 0.3}]\n[[rig.effect]]\nname = \"wall_friction\"\nstrengths = [4]\nat = "
+        "[1]\n");
+  ASSERT_EQ(plan(), 0) << err_;
+  for (const auto& run : table(folder_ / "study.csv")) {
+    const std::string folder = "results/runs/" + run.at("run");
+    const bool smooth = run.at("wall_frictionAngle").empty();
+    write(folder + "/run.json", json{{"hashes", json::object()}, {"parameters", run}}.dump());
+    const json parts = {{"blades", {{"torque_Nm", smooth ? 3.0 : 4.0}, {"turns", true}}},
+                        {"drum", {{"torque_Nm", 1.0}, {"turns", true}}},
+                        {"shell", {{"torque_Nm", -2.5}, {"turns", false}}}};
+    write(folder + "/post/power.json", json{{"speed", 0.8}, {"parts", parts}, {"losses", nullptr}}.dump());
+    write(folder + "/post/phase.csv", "phase_deg,blades_Nm,drum_Nm,shell_Nm\n2.5,3,1,-2.5\n7.5,3,1,-2.5\n");
+    write(
+        "results/post/" + run.at("run") + ".csv",
+        fmt::format("test,role,apparatus,observable,value,u,unit,speed,fill,moisture,normal_stress,shear_velocity,tilt,"
+                    "wall,material\nany,fit,machine,power,{},0.1,W,0.8,0.3,,,,,,millet\n",
+                    20 + 0.1 * std::stod(run.at("seed"))));
+  }
+  ASSERT_EQ(collect(), 0) << err_;
+  write("t.csv",
+        "test,role,apparatus,observable,value,u,unit,speed,fill,moisture,normal_stress,shear_velocity,tilt,wall,"
+        "material\na,fit,machine,power,21,0.5,W,0.8,0.3,,,,,,millet\n");
+  ASSERT_EQ(gap("diagnose t.csv --library library --draws 20 --out answer"), 0) << err_;
+  const json d = json::parse(content(folder_ / "answer/diagnosis.json"));
+  const std::map<std::string, std::pair<std::string, double>> expected = {
+      {"blades", {"part", 0.75}}, {"turning drum", {"part", 0.25}}, {"shell", {"standing", -0.625}}};
+  ASSERT_EQ(d["sources"].size(), expected.size()) << d["sources"];
+  for (const json& s : d["sources"]) {
+    const auto& [kind, share] = expected.at(s["source"]);
+    EXPECT_EQ(s["kind"], kind);
+    EXPECT_NEAR(s["share"], share, 1e-5) << s;
+  }
+}
+
 TEST_F(GapLibraryPlan, BenchRowsGoWithTheFamily) {
   std::string text = kPlan;
   const std::string row = "{value = 25}";

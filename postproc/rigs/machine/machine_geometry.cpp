@@ -276,11 +276,9 @@ RigGeometry machine_geometry(GeometryInput& input) {
                     gap->distance * 1e3, gap->tolerance * 1e3, gap->s, gap->r));
     if (gap->distance > kWedgedFrom * bed.diameter && gap->distance < kWedgedTo * bed.diameter)
       g.notes.push_back(
-          fmt::format("note: the clearance is {:.2g} grain diameters; from {} to {} grain gets wedged: take "
-                      "grainDiameter over {:.3g} "
-                      "or below {:.2g}",
-                      gap->distance / bed.diameter, kWedgedFrom, kWedgedTo, gap->distance / kWedgedFrom,
-                      gap->distance / kWedgedTo));
+          fmt::format("note: the clearance is {:.2g} grain diameters, where grain gets wedged; below a diameter of "
+                      "{:.2g} m it passes, over {:.2g} m most is kept out",
+                      gap->distance / bed.diameter, gap->distance / kWedgedTo, gap->distance / kWedgedFrom));
   }
   std::vector<Point> found;
   if (!bed.empty()) {
