@@ -71,7 +71,7 @@ TEST_F(PostCommand, ARecordInPartsOfATurnNeedNotEndWithATurn) {
 TEST_F(PostCommand, PartsThatPhasesReachOverAreRefused) {
   quiet_.turn_parts = 5;
   quiet_.write(folder_ / "run");
-  expect_refusal("run", "run/torque.csv:");
+  expect_refusal("run", "run/torque.csv, line ");
   EXPECT_NE(err_.find("turn_parts"), std::string::npos) << err_;
   EXPECT_NE(err_.find("divisor of 72"), std::string::npos) << err_;
 }
