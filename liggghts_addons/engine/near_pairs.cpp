@@ -3,6 +3,8 @@
 
 #include <math.h>
 
+#include <algorithm>
+
 #include "atom.h"
 #include "engine/pair_list.h"
 #include "lammps.h"
@@ -31,8 +33,8 @@ bool NearPairs::begin(const LAMMPS_NS::LAMMPS* lmp) {
   }
   age_ = 0;
   held_ = places_;
-  near_.clear();
-  was_.clear();
+  nearCount_ = 0;
+  std::fill(was_.begin(), was_.end(), 0);
   return true;
 }
 
@@ -45,12 +47,12 @@ bool NearPairs::within_margin(const Drift& drift) {
 }
 
 const Touching& NearPairs::find() {
-  const size_t lanes = static_cast<size_t>(search_.lanes), count = near_.size();
+  const size_t lanes = static_cast<size_t>(search_.lanes), count = nearCount_;
   if (pairs_.size() < count + lanes) pairs_.resize(count + lanes), parted_.resize(count + lanes);
   touching_ = {pairs_.data(), 0, parted_.data(), 0};
-  near_.resize(count + lanes, NearPair());  // see NearSearch
+  if (near_.size() < count + lanes) near_.resize(count + lanes);
+  std::fill_n(near_.begin() + static_cast<std::ptrdiff_t>(count), lanes, NearPair());  // see NearSearch
   search_.touching(places_.data(), near_.data(), count, was_.data(), touching_);
-  near_.resize(count);
   return touching_;
 }
 

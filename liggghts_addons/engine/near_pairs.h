@@ -40,8 +40,9 @@ class NearPairs {
 
   const NearSearch& search_;
   std::vector<Place> places_, held_;  // now; at the last look at all
-  std::vector<NearPair> near_;        // of one grain after the other
-  std::vector<unsigned char> was_;    // touching in the step before, see NearSearch
+  std::vector<NearPair> near_;        // of one grain after the other; the first nearCount_, with room for more
+  size_t nearCount_ = 0;
+  std::vector<unsigned char> was_;  // touching in the step before, see NearSearch
   std::vector<size_t> pairs_, parted_;
   Touching touching_ = {NULL, 0, NULL, 0};
   double margin_ = 0;
@@ -53,20 +54,21 @@ template <class Part>
 void NearPairs::look(int grain, const int* neighbours, int count, int* flags, double* histories, int stride,
                      Part part) {
   const Place me = places_[grain];
-  const size_t lanes = static_cast<size_t>(search_.lanes);
+  const size_t lanes = static_cast<size_t>(search_.lanes), most = nearCount_ + static_cast<size_t>(count);
+  if (near_.size() < most + lanes) near_.resize(2 * (most + lanes));
+  if (was_.size() < most / lanes + 1) was_.resize(2 * (most / lanes + 1));
+  // without a branch for those that are near, which the processor would guess wrongly
   for (int slot = 0; slot < count; slot++) {
     const int j = neighbours[slot] & NEIGHMASK;
     const Place& other = places_[j];
     const double dx = me.x - other.x, dy = me.y - other.y, dz = me.z - other.z;
     const double far = me.radius + other.radius + margin_;
-    if (dx * dx + dy * dy + dz * dz < far * far) {
-      const size_t k = near_.size();
-      if (k % lanes == 0) was_.push_back(0);
-      was_.back() = static_cast<unsigned char>(was_.back() | (flags[slot] != 0) << k % lanes);
-      near_.push_back({grain, j, flags + slot, histories + stride * slot});
-    } else if (flags[slot]) {
-      part(flags + slot, histories + stride * slot);
-    }
+    const bool near = dx * dx + dy * dy + dz * dz < far * far, flagged = flags[slot] != 0;
+    if (flagged && !near) part(flags + slot, histories + stride * slot);
+    unsigned char& was = was_[nearCount_ / lanes];
+    was = static_cast<unsigned char>(was | (near && flagged) << nearCount_ % lanes);
+    near_[nearCount_] = {grain, j, flags + slot, histories + stride * slot};
+    nearCount_ += near;
   }
 }
 
