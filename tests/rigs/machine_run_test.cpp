@@ -90,6 +90,7 @@ TEST_F(Machine, PaddleMixerAsStlGivesThePaddleMixersTorque) {
   EXPECT_TRUE(told["thesis_power_W"].is_null());  // the published equation is of another machine
   // the same mesh: the volume up to the rim is the drum's, without that of its 48 chords less than 1e-3
   EXPECT_NEAR(std::stod(header("as_stl", "vessel_volume")), 0.01337, 3e-3 * 0.01337);
+  EXPECT_NEAR(std::stod(header("as_stl", "fill")), 0.15, 3e-3 * 0.15);
 }
 
 /* Torque about the axis: rotor, drum and gravity leave nothing on the mean; work goes into what is lost and kept. Grain
@@ -114,6 +115,7 @@ TEST_F(Machine, RibbonTurnsGrainAndBalances) {
   double rotor = 0;
   for (const char* part : {"helix", "axle"}) rotor += told["parts"][part]["torque_Nm"].get<double>();
   EXPECT_NEAR(rotor, torque, 1e-9 * torque);
+  EXPECT_EQ(header("ribbon_run", "fill"), "0.35");  // as a measurement states it, not as whole grains make it
   EXPECT_EQ(header("ribbon_run", "turning"), "helix axle");
   EXPECT_EQ(header("ribbon_run", "standing"), "drum");
   // the mass is that of the fill: 0.35 of the closed form's volume, to half a grain
