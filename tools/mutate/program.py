@@ -112,7 +112,7 @@ def build(test, path, text, folder, libraries):
     if path.suffix == ".cpp":
         archives = ["gap/libvielto_gap.a", "postproc/libvielto_post.a", "postproc/libvielto_core.a"]
         command += [libraries / a for a in archives]
-    command += ["-lgtest_main", "-lgtest", "-lfmt", "-lcrypto", "-lpthread"]
+    command += ["-lgtest_main", "-lgtest", "-lfmt", "-lcrypto", "-ltomlplusplus", "-lpthread"]
     result = subprocess.run(command, capture_output=True, text=True)
     if result.returncode:
         raise RunFailed(f"{shlex.join(map(str, command))}\n{result.stderr[:3000]}")

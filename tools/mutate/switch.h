@@ -58,14 +58,15 @@ MUTANT_PAIR(equal, ==, !=)
 MUTANT_PAIR(unequal, !=, ==)
 #undef MUTANT_PAIR
 
-#define MUTANT_ASSIGN(name, right, wrong) \
-  template <class A, class B>             \
-  A& name(int number, A& a, const B& b) { \
-    if (active() == number)               \
-      a wrong b;                          \
-    else                                  \
-      a right b;                          \
-    return a;                             \
+// A view of Eigen is a temporary that can be assigned to.
+#define MUTANT_ASSIGN(name, right, wrong)                  \
+  template <class A, class B>                              \
+  decltype(auto) name(int number, A&& a, const B& b) {     \
+    if (active() == number)                                \
+      a wrong b;                                           \
+    else                                                   \
+      a right b;                                           \
+    if constexpr (std::is_lvalue_reference_v<A>) return a; \
   }
 MUTANT_ASSIGN(add_to, +=, -=)
 MUTANT_ASSIGN(take_from, -=, +=)
