@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The directive {claims}: a table of findings, a line a page, with the question and the claim that the page itself states.
+"""The directive {claims}: a list of findings, a line a page, with the question and the claim that the page itself states.
 
     ```{claims}
     grain_size
@@ -35,7 +35,7 @@ class Claims(Directive):
         environment = self.state.document.settings.env
         folder = pathlib.Path(environment.doc2path(environment.docname)).parent
         pages = [line.strip() for line in self.content if line.strip()]
-        lines = ["| question | answer |", "|---|---|"]
+        lines = []
         for page in pages:
             path = folder / f"{page}.md"
             environment.note_dependency(str(path))
@@ -43,7 +43,7 @@ class Claims(Directive):
                 question, claim = question_and_claim(path)
             except (OSError, ValueError) as fault:
                 raise self.error(str(fault)) from fault
-            lines.append(f"| [{question}]({page}.md) | {claim} |")
+            lines.append(f"- [{question}]({page}.md) {claim}")
         lines += ["", "```{toctree}", ":hidden:", *pages, "```"]
         holder = nodes.Element()
         self.state.nested_parse(StringList(lines), self.lineno, holder, match_titles=True)

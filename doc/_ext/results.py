@@ -210,7 +210,11 @@ def across_columns(option, rows):
         return [], None
     head, what = option.split("=", 1)
     column, *unit = head.split()
-    values = dict.fromkeys(row[column] for row in rows)
+    values = list(dict.fromkeys(row[column] for row in rows))
+    try:
+        values.sort(key=float)
+    except ValueError:
+        pass  # words stand in the order of the table
 
     def cell(group, value):
         there = [row for row in group if row[column] == value]
