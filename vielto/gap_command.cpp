@@ -264,7 +264,7 @@ using Options = std::shared_ptr<GapOptions>;
 void add_library_options(CLI::App* c, const Options& o) {
   add_rigs_option(c);
   c->add_option("--library", o->files.library,
-                "response library: a folder, or the name of one that came with vielto (millet, wheat)")
+                "response library: a folder, or the name of one that came with vielto (millet, wheat, mcc)")
       ->required()
       ->transform([](const std::string& given) { return named_in("libraries", given); });
   c->add_option("--effects", o->files.effects, "folder of effect files; without it effects/ beside the library");
