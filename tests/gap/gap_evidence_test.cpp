@@ -3,6 +3,7 @@
 // smoothing.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <random>
@@ -16,6 +17,7 @@
 #include "gap/verdict/fit.h"
 #include "gap/verdict/regions.h"
 #include "gap/verdict/test_design.h"
+#include "gap/verdict/threshold.h"
 #include "gap/verdict/trends.h"
 
 namespace {
@@ -78,6 +80,98 @@ TEST(GapEvidence, OneEffectAgainstTheClosedForm) {
     // The midpoint rule with 64 cells over a bell cut off at 0: its error is below a thousandth.
     EXPECT_NEAR(effect_evidence(m, {&m.effects[0]}).log_evidence, exact, 1e-3) << s;
   }
+}
+
+// Draws of a table without a gap have the mean and the covariance of what they are made of; a member of the family adds
+// its mean and p (1 - p) d d' for two of the weights p and 1 - p that differ by d. Each entry of the covariance of N
+// draws is known to sqrt((S_ii S_jj + S_ij^2)/N), of members less.
+TEST(GapThreshold, DrawsScatterAsTheirParts) {
+  TableModel truth = linear_model(VectorXd::Constant(3, 10), {}, 0, 1);
+  truth.baseline << 10, 20, 30;
+  truth.seed = VectorXd::Constant(3, 0.5).asDiagonal();
+  truth.discrepancy = MatrixXd::Constant(3, 3, 0.09);
+  truth.reference = 0.04 * truth.baseline / 10 * truth.baseline.transpose() / 10;
+  for (const bool family : {false, true}) {
+    VectorXd mean = truth.baseline;
+    MatrixXd covariance = truth.noise + truth.seed + truth.discrepancy + truth.reference;
+    if (family) {
+      truth.family_members.resize(3, 2);
+      truth.family_members << 4, -1, 0, 2, 0, 0;
+      truth.family_weights.resize(2);
+      truth.family_weights << 0.25, 0.75;
+      const VectorXd apart = truth.family_members.col(0) - truth.family_members.col(1);
+      mean += truth.family_members * truth.family_weights;
+      covariance += 0.25 * 0.75 * apart * apart.transpose();
+    }
+    const int count = 20000;
+    std::mt19937_64 random(1);
+    MatrixXd draws(3, count);
+    for (int b = 0; b < count; ++b) draws.col(b) = draw_without_gap(truth, random);
+    const VectorXd found = draws.rowwise().mean();
+    const MatrixXd rest = draws.colwise() - found, scatter = rest * rest.transpose() / count;
+    for (int i = 0; i < 3; ++i) {
+      EXPECT_NEAR(found[i], mean[i], 5 * std::sqrt(covariance(i, i) / count)) << i;
+      for (int j = 0; j < 3; ++j)
+        EXPECT_NEAR(scatter(i, j), covariance(i, j),
+                    5 * std::sqrt((covariance(i, i) * covariance(j, j) + std::pow(covariance(i, j), 2)) / count))
+            << i << " " << j;
+    }
+  }
+}
+
+// One row is its baseline plus its standard deviation times the generator's normal number. Rows that are known to vary
+// as one still do: what makes their covariance regular is 1e-14 of it, 1e-7 of a standard deviation.
+TEST(GapThreshold, DrawsAreTheGeneratorsNumbers) {
+  TableModel truth = linear_model(VectorXd::Constant(2, 10), {}, 0, 1);
+  truth.noise = MatrixXd::Constant(2, 2, 1e-4);
+  std::mt19937_64 random(7), same(7);
+  const VectorXd draw = draw_without_gap(truth, random);
+  const double z = std::normal_distribution<double>()(same);
+  EXPECT_NEAR(draw[0], 10 + 0.01 * z, 1e-12);
+  EXPECT_NEAR(draw[1], draw[0], 6 * 0.01 * 2e-7);
+}
+
+// 100 draws asked for of 3 libraries are 34 each. Of 102 odds in order the quantile p is number ceil(102 p), and its 95
+// % interval is 1.96 sqrt(102 p (1 - p)) numbers wide to either side (binomial); the threshold is never below 0.
+TEST(GapThreshold, IsAQuantileOfTheOddsByTheirOrder) {
+  const Emulator emulator(Library{}, {}, {});
+  VectorXd slope(3);
+  slope << 1, 2, 0.5;
+  const TableModel truth = linear_model(VectorXd::Constant(3, 10), {slope}, 0, 3);
+  Settings settings = Settings::read(VIELTO_SOURCE_DIR "/libraries/diagnosis.toml");
+  settings.draws = 100;
+  settings.libraries = 3;
+  std::mt19937_64 random(5);
+  std::vector<double> odds;
+  for (int l = 0; l < 3; ++l) {
+    emulator.redrawn(random);
+    MatrixXd tables(3, 34);
+    for (int b = 0; b < 34; ++b) tables.col(b) = draw_without_gap(truth, random);
+    const VectorXd found = largest_log_odds(truth, settings, tables);
+    odds.insert(odds.end(), found.begin(), found.end());
+  }
+  std::sort(odds.begin(), odds.end());
+  const auto judge = [&](const Emulator&) { return truth; };
+  settings.false_alarm = 0.02;  // number 100; 100 -+ 2.77, and there are no more than 102
+  Threshold t = bootstrap_threshold(emulator, truth, settings, 5, judge);
+  ASSERT_GT(odds[99], 0);
+  EXPECT_EQ(t.log_odds, odds[99]);
+  EXPECT_EQ(t.low95, odds[97]);
+  EXPECT_EQ(t.high95, odds[101]);
+  EXPECT_EQ(t.draws, 102);
+  EXPECT_EQ(t.libraries, 3);
+  EXPECT_EQ(t.seed, 5u);
+  settings.false_alarm = 0.9;  // number 11; 10.2 -+ 5.94
+  t = bootstrap_threshold(emulator, truth, settings, 5, judge);
+  ASSERT_LT(odds[10], 0);
+  EXPECT_EQ(t.log_odds, 0);
+  EXPECT_EQ(t.low95, odds[4]);
+  EXPECT_EQ(t.high95, odds[16]);
+  settings.draws = 102;  // 34 each again
+  EXPECT_EQ(bootstrap_threshold(emulator, truth, settings, 5, judge).draws, 102);
+  settings.false_alarm = 0.999;  // number 1, from -0.52
+  t = bootstrap_threshold(emulator, truth, settings, 5, judge);
+  EXPECT_EQ(t.low95, odds[0]);
 }
 
 // Two rows, one present and one to come. With the same factor of the family in both (variance A), noise u^2 and v^2 and
