@@ -10,7 +10,18 @@ sys.path[:0] = [str(ROOT), str(ROOT / "doc" / "_ext")]
 project = "ViElTo for LIGGGHTS"
 author = "see AUTHORS"
 release = re.search(r"VERSION ([\d.]+)", (ROOT / "CMakeLists.txt").read_text().split("project(")[1])[1]
-extensions = ["myst_parser", "equations", "results", "claims", "from_code", "drawing", "plot", "again", "questions"]
+extensions = [
+    "myst_parser",
+    "equations",
+    "results",
+    "claims",
+    "from_code",
+    "drawing",
+    "plot",
+    "scores",
+    "again",
+    "questions",
+]
 myst_enable_extensions = ["colon_fence", "dollarmath", "deflist"]
 myst_heading_anchors = 3
 exclude_patterns = ["_ext"]

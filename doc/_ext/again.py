@@ -1,26 +1,36 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The directive {again}: how a finding is made again, folded. Its title is the time that takes, its lines are commands.
+"""The directive {again} findings/end_walls: how a finding is made again, folded.
 
-    ```{again} 75 minutes of one core
-    scripts/campaign velocity_sweep
-    ```
+The program `again` of that folder does it. The first line of comment behind its `#!` is the time that it takes, the page's
+title of the fold; behind it stand what it needs and the commands, which the page shows.
 """
-import html
+import re
 
 from docutils import nodes
-from docutils.parsers.rst import Directive
+from from_code import FromFile
+
+PREAMBLE = re.compile(r"#!.*|set -euo pipefail|cd \"\$\(dirname .*|# SPDX.*|")
 
 
-class Again(Directive):
-    has_content = True
-    required_arguments = 1
-    final_argument_whitespace = True
+def time_and_commands(text):
+    lines = [line for line in text.splitlines() if not PREAMBLE.fullmatch(line)]
+    if not lines or not lines[0].startswith("# "):
+        raise ValueError("the first comment is the time that it takes")
+    return lines[0][2:], lines[1:]
 
+
+class Again(FromFile):
     def run(self):
-        commands = "\n".join(self.content)
-        time = html.escape(self.arguments[0])
+        program = self.path() / "again"
+        try:
+            self.state.document.settings.env.note_dependency(str(program))
+            time, lines = time_and_commands(program.read_text(encoding="utf-8"))
+        except (OSError, ValueError) as fault:
+            raise self.error(f"{program}: {fault}") from fault
+        summary = f"<details><summary>Make it again: {self.arguments[0]}/again, {time}</summary>"
+        commands = "\n".join(lines)
         return [
-            nodes.raw("", f"<details><summary>Make it again: {time}</summary>", format="html"),
+            nodes.raw("", summary, format="html"),
             nodes.literal_block(commands, commands, language="sh"),
             nodes.raw("", "</details>", format="html"),
         ]

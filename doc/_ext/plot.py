@@ -1,18 +1,27 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The directive {plot}: a figure straight from one of the repository's CSV tables, drawn when the site is built.
+"""The directive {plot}: a figure straight from the repository's tables, drawn when the site is built.
 
     ```{plot} findings/lift_speed/repose_lift.runs.csv
     :x: lift speed [mm/s] = 1000 lift_speed_m_s
-    :y: angle [deg] = angle_deg
+    :y: angle [deg] = angle_deg ± angle_u_deg
     :where: base = rough
     :each: fill
     :log: x
     :zero: y
     ```
 
-A dot a row, and a line through the means of the dots at one x. Several columns of `y`, divided by `;`, are a series each, as is
-every value of the column `each`. `x`, `y` and `where` are written as in {results}; `log` and `zero` name the axes that are
-logarithmic and that begin at 0. Words and lines take the colour of the page's text.
+A dot a row, and a line through the means of the dots at one x, which `:dots:` leaves out. Several columns of `y`, divided by
+`;`, are a series each, as is every value of the column `each`. A value is LABEL = [FACTOR] COLUMN, with ± COLUMN or
+(COLUMN, COLUMN) for its standard uncertainty or interval, and `if COLUMN=PATTERN` for some of the rows; a column of
+columns.csv needs neither label nor factor. `where`, and `list`, a list in JSON files, are as in {results}. Several files are
+LABEL = FILE, divided by `;`: a series each.
+`log` and `zero` name the axes that are logarithmic and that begin at 0. With
+
+    :rows: <file>, <strength>
+
+each row has a line of the figure under these words: `x` holds its values, `y` the words of their axis. Then `:mark:`
+LABEL = VALUE ± U draws a band; `trends.0.exponent ± trends.0.u of FILE` reads it in a JSON file. `:title:` stands above a
+figure of several y. Words and lines take the colour of the page's text.
 """
 import io
 import re
@@ -21,65 +30,87 @@ import statistics
 from docutils import nodes
 from docutils.parsers.rst import directives
 from from_code import FromFile
-from results import matching, rows_of
-from tools import pictures
+from results import ROOT, known_columns, matching, rows_of
+from tools import files, pictures
 
 INK = "#010203"  # stands for the page's own colour
 COLOURS = ("#3b7dc4", "#e08a1e", "#3f9b4f", "#c4517a", "#8a6bc0")
+MARKS = "oDs^v"
+HEAD = 0.35  # height of the words above a figure's lines
 LOOK = {
     "svg.fonttype": "none",
     "svg.hashsalt": "vielto",
     "font.size": 11,
     **dict.fromkeys(("text.color", "axes.labelcolor", "axes.edgecolor", "xtick.color", "ytick.color"), INK),
 }
+VALUE = re.compile(r"(?:([-+.\deE]+) )?(.+?)(?: ± (\S+)| \((\S+), (\S+)\))?(?: if (\w+)=(\S+))?")
 
 
-def column(what):
-    """(label, factor, column) of LABEL = [FACTOR] COLUMN."""
-    label, words = (part.strip() for part in what.split("=", 1))
-    factor, name = re.fullmatch(r"(?:([-+.\de]+) )?(.+)", words).groups()
-    return label, float(factor or 1), name
+class Value:
+    """One `LABEL = [FACTOR] COLUMN ± COLUMN`: its label, and the number and interval of a row."""
+
+    def __init__(self, what):
+        label, _, words = what.rpartition(" = ")
+        factor, self.column, self.u, self.low, self.high, self.where, self.pattern = VALUE.fullmatch(
+            words.strip()
+        ).groups()
+        known = known_columns().get(self.column)
+        if not label and not known:
+            raise ValueError(f"'{what.strip()}' has no label and is not in columns.csv")
+        self.label = label.strip() or known["label"]
+        self.factor = float(factor or (not label and known["factor"]) or 1)
+
+    def of(self, row):
+        """(value, low, high); None if the cell is empty or the row is another's."""
+        if not row[self.column] or (self.where and not re.fullmatch(self.pattern, row.get(self.where, ""))):
+            return None
+        value = self.factor * float(row[self.column])
+        if self.u:
+            u = self.factor * float(row[self.u])
+            return value, value - u, value + u
+        if self.low:
+            return value, self.factor * float(row[self.low]), self.factor * float(row[self.high])
+        return value, value, value
 
 
 def series_of(rows, x, ys, each):
-    """[(label, [(x, y)])]; with several values of `each` the label is the value."""
+    """[(label, [(x, value)])]; with several values of `each` the label is the value."""
     found = {}
-    for label, factor, name in ys:
+    for y in ys:
         for row in rows:
-            if row[x[2]] and row[name]:
-                key = f"{each} {row[each]}" if each else label
-                found.setdefault(key, []).append((x[1] * float(row[x[2]]), factor * float(row[name])))
+            at, value = (x.of(row) or [None])[0], y.of(row)
+            if at is not None and value is not None:
+                key = row[each] if each == "file" else f"{each} {row[each]}" if each else y.label
+                found.setdefault(key, []).append((at, value))
     return list(found.items())
 
 
-def draw(series, x, y, log, zero):
+def lines_of(rows, ys, template):
+    """The words of the figure's lines, and [(label, [(line, value)])]."""
+    words = [re.sub(r"<(\w+)>", lambda name: row[name[1]], template).strip() for row in rows]
+    places = list(dict.fromkeys(words))
+    series = [(y.label, [(places.index(w), y.of(r)) for w, r in zip(words, rows) if y.of(r)]) for y in ys]
+    return places, series
+
+
+def spans(points, axis):
+    """Values and lengths to both sides, for an error bar; nothing where no value has an interval."""
+    middle = [value for _, (value, _, _) in points]
+    # rounding may put the end of an interval of no length beyond its value
+    away = [
+        [max(value - low, 0) for _, (value, low, _) in points],
+        [max(high - value, 0) for _, (value, _, high) in points],
+    ]
+    return middle, {f"{axis}err": away} if any(map(any, away)) else {}
+
+
+def drawn(size, draw):
+    """The SVG of what `draw` puts on the axes."""
     pyplot = pictures.pyplot()
     with pyplot.rc_context(LOOK):
-        figure, axes = pyplot.subplots(figsize=(5.2, 3.2), layout="constrained")
-        for k, (name, points) in enumerate(series):
-            colour = COLOURS[k % len(COLOURS)]
-            axes.plot(*zip(*points), "o", markersize=5, alpha=0.75, color=colour, label=name)
-            at = sorted({px for px, _ in points})
-            axes.plot(
-                at, [statistics.fmean(py for px, py in points if px == p) for p in at], linewidth=1.2, color=colour
-            )
-        axes.set_xlabel(x)
-        axes.set_title(y, loc="left", fontsize=11)
-        if "x" in log:
-            axes.set_xscale("log")
-            at = sorted({px for _, points in series for px, _ in points})
-            axes.set_xticks(at, [f"{p:g}" for p in at])
-            axes.minorticks_off()
-        if "y" in log:
-            axes.set_yscale("log")
-        if "x" in zero:
-            axes.set_xlim(left=0)
-        if "y" in zero:
-            axes.set_ylim(bottom=0)
+        figure, axes = pyplot.subplots(figsize=size, layout="constrained")
+        draw(axes)
         axes.spines[["top", "right"]].set_visible(False)
-        axes.grid(color="#888888", alpha=0.3, linewidth=0.7)
-        if len(series) > 1:
-            axes.legend(frameon=False)
         out = io.StringIO()
         figure.savefig(out, format="svg", transparent=True, metadata={"Date": None})
         pyplot.close(figure)
@@ -87,29 +118,147 @@ def draw(series, x, y, log, zero):
     return svg[svg.index("<svg") :].replace(INK, "currentColor")
 
 
+def numbers_on(axis, at):
+    """A logarithmic axis with these numbers, whole words instead of powers."""
+    axis.set_ticks(at, [f"{p:g}" for p in at], minor=False)
+    axis.set_ticks([], minor=True)
+
+
+def draw(series, x, y, log="", zero="", dots=False):
+    def on(axes):
+        for k, (name, points) in enumerate(series):
+            colour = COLOURS[k % len(COLOURS)]
+            middle, bars = spans(points, "y")
+            axes.errorbar(
+                [px for px, _ in points],
+                middle,
+                fmt=MARKS[k % len(MARKS)],
+                markersize=5,
+                alpha=0.75,
+                color=colour,
+                label=name,
+                **bars,
+            )
+            at = sorted({px for px, _ in points})
+            means = [statistics.fmean(value for px, (value, _, _) in points if px == p) for p in at]
+            if not dots:
+                axes.plot(at, means, linewidth=1.2, color=colour)
+        axes.set_xlabel(x)
+        axes.set_title(y, loc="left", fontsize=11)
+        if "x" in log:
+            axes.set_xscale("log")
+            at = sorted({px for _, points in series for px, _ in points})
+            if len(at) > 8:
+                at = [k * 10.0**e for e in range(-6, 9) for k in (1, 2, 5) if at[0] <= k * 10.0**e <= at[-1]]
+            numbers_on(axes.xaxis, at)
+        if "y" in log:
+            axes.set_yscale("log")
+        if "x" in zero:
+            axes.set_xlim(left=0)
+        if "y" in zero:
+            axes.set_ylim(bottom=0)
+        axes.grid(color="#888888", alpha=0.3, linewidth=0.7)
+        if len(series) > 1:
+            axes.legend(frameon=False)
+
+    return drawn((5.2, 3.2), on)
+
+
+def draw_lines(places, series, x, log="", zero="", mark=None, ticks=None):
+    """A line of the figure for each of the places, from top to bottom."""
+
+    def on(axes):
+        apart = 0.5 / max(len(series), 2)
+        for k, (name, points) in enumerate(series):
+            middle, bars = spans(points, "x")
+            at = [-line - apart * (k - (len(series) - 1) / 2) for line, _ in points]
+            colour = COLOURS[k % len(COLOURS)]
+            label = name if len(series) > 1 else ""
+            axes.errorbar(middle, at, fmt=MARKS[k % len(MARKS)], markersize=5, color=colour, label=label, **bars)
+        axes.set_yticks([-k for k in range(len(places))], places)
+        axes.set_ylim(-len(places) + 0.4, 0.6)
+        axes.set_xlabel(x)
+        if "x" in log:
+            axes.set_xscale("log")
+            if ticks:
+                numbers_on(axes.xaxis, ticks)
+        if "x" in zero:
+            axes.set_xlim(left=0)
+        if mark:
+            label, value, u = mark
+            axes.axvline(value, color="#c4517a", linewidth=1.2, label=label)
+            axes.axvspan(value - u, value + u, color="#c4517a", alpha=0.2, linewidth=0)
+        axes.grid(axis="x", color="#888888", alpha=0.3, linewidth=0.7)
+        axes.tick_params(axis="y", length=0)
+        if heads:
+            axes.figure.legend(*axes.get_legend_handles_labels(), frameon=False, loc="upper right", ncols=3)
+            axes.figure.get_layout_engine().set(rect=(0, 0, 1, 1 - HEAD / height))
+
+    heads = len(series) > 1 or bool(mark)
+    height = 0.6 + 0.3 * len(places) + HEAD * heads
+    return drawn((5.6, height), on)
+
+
+def figure(svg, words):
+    return nodes.raw("", f'<figure class="plot" role="img" aria-label="{words}">{svg}</figure>', format="html")
+
+
+def at_path(content, path):
+    for key in path.split("."):
+        content = content[int(key) if isinstance(content, list) else key]
+    return content
+
+
+def mark_of(text):
+    """(label, value, u) of LABEL = VALUE ± U [of FILE]."""
+    label, value, u, _, path = re.fullmatch(r"(.+?) = (\S+)(?: ± (\S+))?( of (\S+))?", text).groups()
+    if path:
+        content = files.read_json(ROOT / path, "name a result of the repository")
+        return label, at_path(content, value), at_path(content, u) if u else 0
+    return label, float(value), float(u or 0)
+
+
 class Plot(FromFile):
+    final_argument_whitespace = True
     option_spec = {
-        "x": directives.unchanged_required,
-        "y": directives.unchanged_required,
-        "where": directives.unchanged,
-        "each": directives.unchanged,
-        "log": directives.unchanged,
-        "zero": directives.unchanged,
+        **dict.fromkeys(
+            ("x", "y", "title", "where", "each", "log", "zero", "rows", "list", "mark"), directives.unchanged_required
+        ),
+        "dots": directives.flag,
     }
 
+    def read(self):
+        """Rows of all files; of several, each with its label as `file`."""
+        parts = [part.strip().rpartition(" = ") for part in self.arguments[0].split(";")]
+        rows = []
+        for label, _, path in parts:
+            self.state.document.settings.env.note_dependency(str(ROOT / path))
+            rows += [{**row, "file": label} for row in rows_of(ROOT / path, self.options.get("list"))]
+        return matching(rows, self.options.get("where", ""))
+
     def run(self):
+        options = self.options
         try:
-            rows = matching(rows_of(self.path()), self.options.get("where", ""))
-            x, ys = column(self.options["x"]), [column(part) for part in self.options["y"].split(";")]
-            series = series_of(rows, x, ys, self.options.get("each"))
-            if not series:
+            rows = self.read()
+            if "rows" in options:
+                values = [Value(part) for part in options["x"].split(";")]
+                places, series = lines_of(rows, values, options["rows"])
+                x = options.get("y") or (values[0].label if len(values) == 1 else "")
+                mark = mark_of(options["mark"]) if "mark" in options else None
+                svg = draw_lines(places, series, x, options.get("log", ""), options.get("zero", ""), mark)
+                words = f"{x or ', '.join(v.label for v in values)} of {', '.join(places)}"
+            else:
+                x, ys = Value(options["x"]), [Value(part) for part in options["y"].split(";")]
+                each = options.get("each") or ("file" if rows and rows[0]["file"] and len(ys) == 1 else None)
+                series = series_of(rows, x, ys, each)
+                y = ys[0].label if len(ys) == 1 else options.get("title", "")
+                svg = draw(series, x.label, y, options.get("log", ""), options.get("zero", ""), "dots" in options)
+                words = f"{', '.join(v.label for v in ys)} over {x.label}"
+            if not rows or not any(points for _, points in series):
                 raise self.error(f"{self.arguments[0]}: no row is left under `where`")
         except (OSError, KeyError, ValueError, AttributeError) as fault:
             raise self.error(f"{self.arguments[0]}: {fault!r}") from fault
-        y = ys[0][0] if len(ys) == 1 else ""
-        svg = draw(series, x[0], y, self.options.get("log", ""), self.options.get("zero", ""))
-        words = f"{', '.join(label for label, *_ in ys)} over {x[0]}"
-        return [nodes.raw("", f'<figure class="plot" role="img" aria-label="{words}">{svg}</figure>', format="html")]
+        return [figure(svg, words)]
 
 
 def setup(app):

@@ -7,6 +7,7 @@
     :show: Grain [mm] = 1000 grainDiameter .3g; Runs = n; Power [W] = power_W .1f; scatter = sd power_W .1f
     ```
 
+A column that stands in columns.csv needs neither label, factor nor format: `speed; max overlap_max; power_W ± power_u_W`.
 Rows whose column matches every `where` (a regular expression for the whole cell; several are divided by `;`) are put
 together where their cells of `by` are the same, in the order of their first row or of the numbers of a column `order`; without
 `by` each row stands alone. A
@@ -24,13 +25,14 @@ The directive {values}: the same from JSON files, a row for each template and a 
     ```{values}
     :files: with bench rows = findings/withheld_drum/score.json; without = findings/withheld_drum/score_without_bench.json
     :rows: closure by simulation = {closure:.2f}
-    :scores: right, false_alarm
     ```
 
+Files that differ in one word may be written once, `findings/blind_mixer/{X1,X2}/diagnosis.json`; that word is their label.
+
 Names in braces are keys (`a.b` one inside another) of the column's file, in a row's label those of the first file. A
-cell whose key is not there or null is a dash. Rows may also stand in the directive's body, a line each. Each of `scores`
-is a row of a score file: how many cases, the score, its 95 % interval.
+cell whose key is not there or null is a dash. Rows may also stand in the directive's body, a line each.
 """
+import functools
 import pathlib
 import re
 import statistics
@@ -54,6 +56,35 @@ STATISTICS = {
     "min": min,
     "max": max,
 }
+
+
+@functools.cache
+def known_columns():
+    """Label, factor and format of the columns that many tables have."""
+    path = pathlib.Path(__file__).with_name("columns.csv")
+    return {row["column"]: row for row in tables.read(path, ["column", "label", "factor", "format"], "bring it back")}
+
+
+def column_of(words):
+    """The column in `[mean|sd|u|min|max] COLUMN`, without a label."""
+    return words.split()[-1]
+
+
+def stated_fully(what):
+    """`LABEL = WHAT`; of a column in columns.csv with its own label, factor and format."""
+    label, _, words = what.strip().rpartition(" = ")
+    if label:
+        return label, words
+    parts = words.split(" ± ")
+    known = known_columns().get(column_of(parts[0]))
+    if not known:
+        raise ValueError(f"'{words}' has no label and is not in columns.csv")
+
+    def full(part):
+        *statistic, column = part.split()
+        return " ".join(filter(None, (*statistic, known["factor"], column, known["format"])))
+
+    return known["label"], "n" if words == "n" else " ± ".join(map(full, parts))
 
 
 def rows_of(path, key=None):
@@ -133,25 +164,24 @@ class Values(string.Formatter):
         return re.sub(r"-(?=[\d.])", "−", re.sub(r"-(0(?:\.0+)?)(?![\d.])", r"\1", text))  # no -0.00
 
 
-SCORE_WORDS = {"brier": "Brier score", "coverage90": "coverage of 90 % intervals", "where_f1": "F1 of the regions"}
-
-
-def score_row(score):
-    label = SCORE_WORDS.get(score, score.replace("_", " "))
-    return f"{label} ({{{score}_n}}) = {{{score}:.2f}} [{{{score}_low95:.2f}}, {{{score}_high95:.2f}}]"
+def files_named(text):
+    """[(label, path)] of `LABEL = PATH; ...`, or of one path with the labels in it."""
+    choice = re.fullmatch(r"(.*)\{([^}]+)\}(.*)", text.strip())
+    if choice:
+        return [(word, f"{choice[1]}{word}{choice[3]}") for word in choice[2].split(",")]
+    return [tuple(part.strip() for part in file.split(" = ", 1)) for file in text.split(";")]
 
 
 class JsonValues(Directive):
     option_spec = {
         "files": directives.unchanged_required,
         "rows": directives.unchanged,
-        "scores": directives.unchanged,
     }
 
     has_content = True
 
     def run(self):
-        columns = [[part.strip() for part in file.split("=", 1)] for file in self.options["files"].split(";")]
+        columns = files_named(self.options["files"])
         contents = []
         for _, path in columns:
             self.state.document.settings.env.note_dependency(str(ROOT / path))
@@ -162,7 +192,6 @@ class JsonValues(Directive):
         body = []
         rows = [row for row in self.options.get("rows", "").split(";") if row.strip()]
         rows += [line for line in self.content if line.strip()]
-        rows += [score_row(score.strip()) for score in self.options.get("scores", "").split(",") if score.strip()]
         for row in rows:
             label, template = (part.strip() for part in row.split("=", 1))
             cells = [content.filled(template) for content in contents]
@@ -192,7 +221,7 @@ class Results(Directive):
                 raise self.error(f"{path.name}: no row is left under `where`")
             if "order" in self.options:
                 rows.sort(key=lambda row: float(row[self.options["order"]]))
-            columns = [part.split("=", 1) for part in self.options["show"].split(";")]
+            columns = [stated_fully(part) for part in self.options["show"].split(";")]
             by = self.options.get("by", "").split()
             spread_out, across = across_columns(self.options.get("across"), rows)
             cells = [
@@ -201,7 +230,7 @@ class Results(Directive):
             ]
         except (OSError, KeyError, ValueError) as fault:
             raise self.error(f"{self.arguments[0]}: {fault!r}") from fault
-        return [table([label.strip() for label, _ in columns] + [label for label, _ in spread_out], cells)]
+        return [table([label for label, _ in columns] + [label for label, _ in spread_out], cells)]
 
 
 def across_columns(option, rows):

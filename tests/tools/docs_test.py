@@ -19,21 +19,47 @@ if known.returncode or known.stdout.count("ii") != len(packages):
     sys.exit(77)
 
 sys.path[:0] = [str(ROOT), str(ROOT / "doc/_ext")]
-plot = importlib.import_module("plot")
+plot, results, again = (importlib.import_module(name) for name in ("plot", "results", "again"))
 
-rows = [{"n": str(n), "angle": str(30 + n), "base": base} for n in (1, 2, 4) for base in ("plain", "rough")]
-x, y = plot.column("speed [mm/s] = 10 n"), plot.column("angle [deg] = angle")
+rows = [{"n": str(n), "angle": str(30 + n), "u": "0.5", "base": base} for n in (1, 2, 4) for base in ("plain", "rough")]
+x, y = plot.Value("speed [mm/s] = 10 n"), plot.Value("angle [deg] = angle ± u")
 series = plot.series_of(rows, x, [y], "base")
-assert [(name, points[0]) for name, points in series] == [("base plain", (10, 31)), ("base rough", (10, 31))], series
-drawn = plot.draw(series, x[0], y[0], "x", "")
+assert [(name, points[0]) for name, points in series] == [
+    ("base plain", (10, (31, 30.5, 31.5))),
+    ("base rough", (10, (31, 30.5, 31.5))),
+], series
+drawn = plot.draw(series, x.label, y.label, "x", "")
 for word in ("currentColor", "speed [mm/s]", "angle [deg]", "base rough", ">40<"):
     assert word in drawn, word
 assert plot.INK not in drawn and "#000000" not in drawn, "a colour that a dark page does not show"
-try:
-    plot.series_of(rows, x, [plot.column("y = no_such")], None)
-    raise SystemExit("a missing column was drawn")
-except KeyError:
-    pass
+
+# a line a row, of some rows only, and a band
+some = plot.Value("rough = angle (n, u) if base=rough")
+places, series = plot.lines_of(rows, [some], "<base> <n>")
+assert len(places) == 6 and series == [
+    ("rough", [(k, (31 + d, d + 1, 0.5)) for k, d in ((1, 0), (3, 1), (5, 3))])
+], series
+drawn = plot.draw_lines(places, series, "angle", mark=("wanted", 31, 1))
+assert "rough 4" in drawn and "wanted" in drawn and plot.INK not in drawn
+assert plot.mark_of("wanted = 2 ± 0.5") == ("wanted", 2, 0.5)
+
+# a column that all tables share has one label, factor and format
+assert results.stated_fully("max overlap_max") == ("Greatest overlap [%]", "max 100 overlap_max .1f")
+assert results.stated_fully("power_W ± u power_W") == ("Power [W]", "power_W .1f ± u power_W .1f")
+assert results.files_named("a/{X1,X2}/b.json") == [("X1", "a/X1/b.json"), ("X2", "a/X2/b.json")]
+assert again.time_and_commands("#!/bin/bash\n# an hour\nset -euo pipefail\nrun it\n") == ("an hour", ["run it"])
+
+for wrong, fault in (
+    (lambda: plot.series_of(rows, x, [plot.Value("y = no_such")], None), KeyError),
+    (lambda: plot.Value("no_such"), ValueError),
+    (lambda: results.stated_fully("no_such"), ValueError),
+    (lambda: again.time_and_commands("#!/bin/bash\nrun it\n"), ValueError),
+):
+    try:
+        wrong()
+    except fault:
+        continue
+    raise SystemExit("what is wrong was taken")
 
 done = subprocess.run(
     [ROOT / "scripts/docs"], env={**os.environ, "VIELTO_BIN": sys.argv[1]}, capture_output=True, text=True

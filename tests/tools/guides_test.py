@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The site's guides do what they say. What stands after `$` is run, page by page and in order, and the lines under it come
-out, in order. Of commands that take longer (blocks marked `sh` or `{again}`) the programs, options and -var names are looked up.
+out, in order. Of commands that take longer (blocks marked `sh`, and the findings' programs `again`) the programs, options and -var names are
+looked up.
 
   guides_test.py BIN        folder of vielto
 """
@@ -16,7 +17,8 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 BIN = pathlib.Path(sys.argv[1])
 PAGES = [ROOT / "README.md", ROOT / "doc/index.md", *sorted((ROOT / "doc").glob("*/*.md"))]
 ENVIRONMENT = {**os.environ, "PATH": f"{BIN}:{os.environ['PATH']}"}
-FENCE = re.compile(r"^ *```(\w+|\{again\})(?: [^\n]*)?\n(.*?)^ *```$", re.M | re.S)
+FENCE = re.compile(r"^ *```(\w+)\n(.*?)^ *```$", re.M | re.S)
+AGAIN = sorted(ROOT.glob("findings/*/again"))
 
 
 def blocks(page, kind):
@@ -113,9 +115,15 @@ for page in PAGES:
     if commands:
         run_page(page)
     run += len(commands)
-    for block in [*blocks(page, "sh"), *blocks(page, "{again}")]:
+    for block in blocks(page, "sh"):
         for command in block.replace("\\\n", " ").splitlines():
             looked_up += look_up(page.relative_to(ROOT), command.strip(), parameters)
+assert len(AGAIN) > 20, AGAIN
+for program in AGAIN:
+    for command in program.read_text().replace("\\\n", " ").splitlines():
+        command = re.sub(r"\$here", str(program.parent.relative_to(ROOT)), command.split(" || ")[0].strip())
+        if re.match(r"(scripts|findings|bench|yade|vielto|liggghts)\b", command):
+            looked_up += look_up(program.relative_to(ROOT), command, parameters)
 assert run > 20 and looked_up > 20, (run, looked_up)
 
 # the looking up finds what is wrong
