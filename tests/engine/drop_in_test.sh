@@ -1,5 +1,5 @@
 #!/bin/sh
-# Drops the contact law into a source tree of LIGGGHTS-PUBLIC 3.8 as liggghts_addons/README.md says, builds it and runs
+# Drops the contact law into a source tree of LIGGGHTS-PUBLIC 3.8 as doc/start/install.md says, builds it and runs
 # an oblique impact of two spheres and one on a turning mesh with it and with our liggghts: the numbers must agree to
 # round-off.
 #   drop_in_test.sh SOURCE_TREE LIGGGHTS [WORK]

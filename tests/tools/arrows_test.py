@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Who may include whom: the block ```arrows of doc/develop/architecture.md holds for every C++ file of the rooms it names.
+"""Who may include whom: doc/develop/arrows.txt holds for every C++ file of the rooms it names.
 
-A line of the block is `room -> rooms`: files of a room may include that room's own headers and those of the rooms it
+A line is `room -> rooms`: files of a room may include that room's own headers and those of the rooms it
 names, and of no other. The arrows make no circle. A file belongs to the deepest room it lies in.
 """
 import pathlib
@@ -12,18 +12,15 @@ import tempfile
 import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-PAGE = "doc/develop/architecture.md"
+PAGE = "doc/develop/arrows.txt"
 # The compiler's include path, as the CMakeLists.txt state it; an include of none of these is another package's header.
 PATHS = (".", "postproc", "liggghts_addons", "liggghts_addons/law", "liggghts_addons/plugin/styles")
 
 
 def allowed_arrows(page, root=ROOT):
     """{room: rooms it may include}; ROOM/* stands for each folder of it."""
-    block = re.search(r"^```arrows\n(.*?)^```$", page, re.M | re.S)
-    if not block:
-        raise ValueError(f"{PAGE}: there is no block ```arrows")
     arrows = {}
-    for line in block[1].splitlines():
+    for line in page.splitlines():
         room, arrow, others = line.partition("->")
         for name in expanded(room.strip(), root):
             if not arrow or name in arrows:
