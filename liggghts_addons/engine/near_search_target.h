@@ -67,15 +67,7 @@ Drift near_moved(const double* x, const double* radius, size_t count, const Plac
   return now ? moved<true>(x, radius, count, then, now) : moved<false>(x, radius, count, then, now);
 }
 
-// Appends base, base + 1, ... where a bit is set; writes up to a register beyond the last.
-VIELTO_INLINE void append(unsigned bits, size_t base, size_t* list, size_t& count) {
-  static_assert(sizeof(size_t) == 8, "an index has the width of a double");
-  const hn::RebindToUnsigned<Tag> d;
-  alignas(64) const unsigned char byte[8] = {static_cast<unsigned char>(bits)};
-  const auto where = hn::Iota(d, base);
-  hn::StoreU(hn::Compress(where, hn::LoadMaskBits(d, byte)), d, reinterpret_cast<uint64_t*>(list + count));
-  count += static_cast<size_t>(__builtin_popcount(bits));
-}
+typedef hn::RebindToUnsigned<Tag> Index;
 
 void near_touching(const Place* places, const NearPair* pairs, size_t count, unsigned char* was, Touching& found) {
   found.count = found.partedCount = 0;
@@ -85,13 +77,14 @@ void near_touching(const Place* places, const NearPair* pairs, size_t count, uns
     columns<4>([&](int lane) { return &places[pairs[k + lane].i].x; }, one);
     columns<4>([&](int lane) { return &places[pairs[k + lane].j].x; }, two);
     const Pack dx = one[0] - two[0], dy = one[1] - two[1], dz = one[2] - two[2], radii = one[3] + two[3];
-    alignas(64) unsigned char byte[8] = {0};
-    hn::StoreMaskBits(Tag(), (dx * dx + dy * dy + dz * dz < radii * radii).m, byte);
-    const unsigned touches = byte[0] & ((1u << lanes) - 1);
-    append(touches, k, found.pairs, found.count);
-    const unsigned parted = was[k / Pack::lanes] & ~touches;
-    if (parted) append(parted, k, found.parted, found.partedCount);
-    was[k / Pack::lanes] = static_cast<unsigned char>(touches);
+    const PackMask touches = {hn::And((dx * dx + dy * dy + dz * dz < radii * radii).m, hn::FirstN(Tag(), lanes))};
+    const unsigned now = bits_of(touches);
+    static_assert(sizeof(size_t) == sizeof(uint64_t), "an index has the width of a double");
+    found.count += keep(Index(), hn::Iota(Index(), k), touches, reinterpret_cast<uint64_t*>(found.pairs + found.count));
+    const unsigned parted = was[k / Pack::lanes] & ~now;
+    for (unsigned left = parted; left; left &= left - 1)
+      found.parted[found.partedCount++] = k + static_cast<size_t>(__builtin_ctz(left));
+    was[k / Pack::lanes] = static_cast<unsigned char>(now);
   }
   if (found.count > 0) std::fill_n(found.pairs + found.count, Pack::lanes, found.pairs[found.count - 1]);
 }

@@ -24,28 +24,29 @@ VIELTO_INLINE void store(const VecOf<Pack>& a, Block::Row (&rows)[3], int k) {
   store(a.z, rows[2] + k);
 }
 
-// One constant of each contact's pair.
-VIELTO_INLINE Pack each(const Pair* pairs, const int* index, double Pair::*constant) {
+// One constant of each contact's pair; alike: all have the first one's.
+VIELTO_INLINE Pack each(const Pair* pairs, const int* index, bool alike, double Pair::*constant) {
+  if (alike) return pairs[index[0]].*constant;
   alignas(64) double row[Pack::lanes];
   for (int k = 0; k < Pack::lanes; k++) row[k] = pairs[index[k]].*constant;
   return load(row);
 }
 
-PairOf<Pack> constants(const Pair* pairs, const int* index) {
+PairOf<Pack> constants(const Pair* pairs, const int* index, bool alike) {
   PairOf<Pack> p;
-  p.E1 = each(pairs, index, &Pair::E1);
-  p.E2 = each(pairs, index, &Pair::E2);
-  p.nu1 = each(pairs, index, &Pair::nu1);
-  p.nu2 = each(pairs, index, &Pair::nu2);
+  p.E1 = each(pairs, index, alike, &Pair::E1);
+  p.E2 = each(pairs, index, alike, &Pair::E2);
+  p.nu1 = each(pairs, index, alike, &Pair::nu1);
+  p.nu2 = each(pairs, index, alike, &Pair::nu2);
   p.equalRatio = p.nu1 == p.nu2;
-  p.sqrtRatio = each(pairs, index, &Pair::sqrtRatio);
-  p.betaN = each(pairs, index, &Pair::betaN);
-  p.betaS = each(pairs, index, &Pair::betaS);
-  p.tanPhi = each(pairs, index, &Pair::tanPhi);
-  p.betaKr = each(pairs, index, &Pair::betaKr);
-  p.betaKtw = each(pairs, index, &Pair::betaKtw);
-  p.muR = each(pairs, index, &Pair::muR);
-  p.muTwTanPhi = each(pairs, index, &Pair::muTwTanPhi);
+  p.sqrtRatio = each(pairs, index, alike, &Pair::sqrtRatio);
+  p.betaN = each(pairs, index, alike, &Pair::betaN);
+  p.betaS = each(pairs, index, alike, &Pair::betaS);
+  p.tanPhi = each(pairs, index, alike, &Pair::tanPhi);
+  p.betaKr = each(pairs, index, alike, &Pair::betaKr);
+  p.betaKtw = each(pairs, index, alike, &Pair::betaKtw);
+  p.muR = each(pairs, index, alike, &Pair::muR);
+  p.muTwTanPhi = each(pairs, index, alike, &Pair::muTwTanPhi);
   return p;
 }
 
@@ -148,9 +149,9 @@ bool evaluate(const PackedStep& step, Block& b, int count) {
   // what the lanes past the last hold is of no account, but they need a pair
   for (int k = count; k < whole; k++) b.pair[k] = b.pair[count - 1];
   bool greater = false;
-  PairOf<Pack> p = constants(step.pairs, b.pair);
+  PairOf<Pack> p = constants(step.pairs, b.pair, b.alike);
   for (int k = 0; k < whole; k += Pack::lanes) {
-    if (!b.alike && k > 0) p = constants(step.pairs, b.pair + k);
+    if (!b.alike && k > 0) p = constants(step.pairs, b.pair + k, false);
     greater |= evaluate<Wall>(step, p, b, k);
   }
   return greater;

@@ -52,6 +52,29 @@ VIELTO_INLINE bool any(const PackMask& c) { return !hn::AllFalse(Tag(), c.m); }
 VIELTO_INLINE bool all(const PackMask& c) { return hn::AllTrue(Tag(), c.m); }
 VIELTO_INLINE Pack choose(const PackMask& c, const Pack& a, const Pack& b) { return hn::IfThenElse(c.m, a.v, b.v); }
 
+VIELTO_INLINE unsigned bits_of(const PackMask& c) {
+  unsigned char bytes[8];  // Highway may write all
+  hn::StoreMaskBits(Tag(), c.m, bytes);
+  return bytes[0];
+}
+
+/* Writes the numbers of the lanes that are set one after the other and tells how many; up to a register is written.
+   D: doubles, or another number of their width. */
+template <class D>
+VIELTO_INLINE size_t keep(D d, const hn::Vec<D>& numbers, const PackMask& c, hn::TFromD<D>* out) {
+  // not hn::Compress, whose table the compiler copies to the stack at every call, nor what rests on it in 4 lanes
+  if constexpr (Pack::lanes == 8) return hn::CompressStore(numbers, hn::RebindMask(d, c.m), d, out);
+  alignas(64) hn::TFromD<D> row[Pack::lanes];
+  hn::Store(numbers, d, row);
+  const unsigned bits = bits_of(c);
+  size_t count = 0;
+  for (int lane = 0; lane < Pack::lanes; lane++) {
+    out[count] = row[lane];
+    count += bits >> lane & 1;
+  }
+  return count;
+}
+
 /* Rows of N numbers, 3 or 4, in memory, one for each lane, and the same numbers by component, all lanes side by side:
    a transposition within each half of 4 lanes; on narrower registers number by number. */
 constexpr bool transposes = Pack::lanes == 4 || Pack::lanes == 8;

@@ -19,7 +19,8 @@ size_t neighbours(const BinnedGrains& g, const GrainToPair& me, size_t from, siz
     const Pack square = dx * dx + dy * dy + dz * dz;
     const Pack reach = (radius + column(g.radius)) * me.factor + me.skin;
     const auto near = hn::And(hn::Le(square.v, (reach * reach).v), hn::Gt(other.v, number.v));
-    found += hn::CompressStore(other.v, hn::And(near, hn::FirstN(d, to - k)), d, out + found);
+    const PackMask kept = {hn::And(near, hn::FirstN(d, to - k))};
+    found += keep(d, other.v, kept, out + found);
   }
   return found;
 }
