@@ -8,8 +8,8 @@
 
 namespace vielto {
 
-// Side by side, for one read of memory a neighbour.
-struct Place {
+// Side by side, for one read of memory a neighbour, which never lies on both sides of a cache line's end.
+struct alignas(32) Place {
   double x, y, z, radius;
 };
 

@@ -50,13 +50,15 @@ VIELTO_INLINE Drift moved(const double* x, const double* radius, size_t count, c
   double most[4] = {0, 0, 0, 0};
   size_t i = 0;
   if constexpr (transposes) {
-    hn::Vec<RowTag> change = hn::Zero(RowTag());
-    for (; i + 1 < count; i++) {
-      const hn::Vec<RowTag> place = place_of(x, radius, i);
-      if (Write) hn::StoreU(place, RowTag(), &now[i].x);
-      change = hn::Max(change, hn::Abs(hn::Sub(place, hn::LoadU(RowTag(), &then[i].x))));
-    }
-    hn::StoreU(change, RowTag(), most);
+    // two at once: the greatest of each waits for the one before
+    hn::Vec<RowTag> change[2] = {hn::Zero(RowTag()), hn::Zero(RowTag())};
+    for (; i + 2 < count; i += 2)
+      for (size_t k = 0; k < 2; k++) {
+        const hn::Vec<RowTag> place = place_of(x, radius, i + k);
+        change[k] = hn::Max(change[k], hn::Abs(hn::Sub(place, hn::LoadU(RowTag(), &then[i + k].x))));
+        if (Write) hn::StoreU(place, RowTag(), &now[i + k].x);
+      }
+    hn::StoreU(hn::Max(change[0], change[1]), RowTag(), most);
   }
   const Drift rest = plain_search.moved(x + 3 * i, radius + i, count - i, then + i, Write ? now + i : nullptr);
   return {std::max(most[0] * most[0] + most[1] * most[1] + most[2] * most[2], rest.square),

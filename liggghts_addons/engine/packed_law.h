@@ -22,7 +22,7 @@ namespace vielto {
 
 // Contacts 0 ... count-1; vectors by component, then by contact. SI units; body 2 is grain j or the wall.
 struct alignas(64) Block {
-  static constexpr int size = 64;
+  static constexpr int size = 32;
   typedef double Row[size];
 
   Row delta[3];  // x_1 - x_2, or from the nearest point of a wall to x_1
