@@ -20,7 +20,8 @@ TESTS = {
     "liggghts_addons/law/stock_springs.h": ["law/stock_springs_test"],
     "liggghts_addons/law/walton_braun_law.h": ["law/walton_braun_law_test"],
     "gap/verdict/threshold.cpp": ["gap/gap_evidence_test"],
-    "gap/verdict/evidence.cpp": ["gap/gap_evidence_test"],
+    "gap/verdict/evidence.cpp": ["gap/gap_likelihood_test"],
+    "gap/verdict/diagnosis.cpp": ["gap/gap_judgement_test"],
 }
 NO_FLIP = -1
 EQUIVALENT = HERE / "equivalent.csv"  # source,text,change,nth (of those alike),why
