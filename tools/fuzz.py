@@ -4,17 +4,20 @@
 Each reader of tests/fuzz gets the repository's own files as seeds and runs until its number of executions is reached. A crash, an
 exception other than a refusal, over 2 s or 1 GB is a fault: its input stays in the folder, and the exit status is 1."""
 import argparse
+import json
 import os
 import pathlib
 import re
+import shutil
 import subprocess
+import time
 
 from tools import command_line
 from tools.errors import BadInput
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 FOLDER = ROOT / "build-fuzz"
-MOST_SEED = 6000  # bytes: long files are cut, for short inputs are tried more often
+MOST_SEED = 1200  # bytes: long files are cut, for short inputs are tried more often
 
 # reader: share of all executions, seeds
 READERS = {
@@ -81,14 +84,18 @@ def work(options):
         subprocess.run([ROOT / "scripts/build", "fuzz", *(f"fuzz_{r}" for r in readers)], check=True)
     whole = sum(share for share, _ in READERS.values())
     total = faults = 0
-    print(f"{'reader':<20}{'executions':>12}{'edges':>8}{'faults':>8}")
+    print(f"{'reader':<20}{'executions':>12}{'edges':>8}{'inputs':>8}{'kB':>8}{'s':>8}{'faults':>8}")
     for reader in readers:
         executions = max(1000, round(options.executions * READERS[reader][0] / whole))
+        start = time.monotonic()
         done, edges, bad = fuzz(reader, executions)
+        sizes = [p.stat().st_size for p in (FOLDER / "corpus" / reader).iterdir()]
         total += done
         faults += len(bad)
-        print(f"{reader:<20}{done:>12}{edges:>8}{len(bad):>8}", *bad, flush=True)
-    print(f"{'all':<20}{total:>12}{'':>8}{faults:>8}")
+        took = time.monotonic() - start
+        counts = f"{done:>12}{edges:>8}{len(sizes):>8}{sum(sizes) / 1000:>8.0f}{took:>8.0f}{len(bad):>8}"
+        print(f"{reader:<20}{counts}", *bad, flush=True)
+    print(f"{'all':<20}{total:>12}{'':>32}{faults:>8}")
     return 1 if faults else 0
 
 
@@ -99,36 +106,45 @@ def fuzz(reader, executions):
     faults = FOLDER / "faults" / reader
     faults.mkdir(parents=True, exist_ok=True)
     for number, path in enumerate(seeds(reader)):
-        text = path.read_bytes()
-        (corpus / f"seed_{number}").write_bytes(text if reader in WHOLE else cut(text))
+        (corpus / f"seed_{number}").write_bytes(shortened(path, reader))
     most = max(p.stat().st_size for p in corpus.iterdir())
+    options = [f"-runs={executions}", "-timeout=2", "-rss_limit_mb=1024", f"-max_len={most + 200}", "-detect_leaks=0"]
+    log = libfuzzer(reader, [*options, "-print_final_stats=1", f"-artifact_prefix={faults}/", corpus])
+    (FOLDER / "faults" / f"{reader}.log").write_text(log.stderr)
+    done = re.search(r"stat::number_of_executed_units: *(\d+)", log.stderr)
+    edges = re.findall(r" cov: (\d+) ", log.stderr)
+    bad = sorted(p.name for p in faults.iterdir())
+    if log.returncode and not bad:
+        bad = [f"ended with status {log.returncode}, see {FOLDER / 'faults' / reader}.log"]
+    if not bad:
+        keep_what_adds(reader, corpus)
+    return int(done[1]) if done else 0, int(edges[-1]) if edges else 0, bad
+
+
+def keep_what_adds(reader, corpus):
+    """The fewest and shortest inputs that reach what all reach."""
+    fewer = corpus.with_name(f"{reader}.fewer")
+    shutil.rmtree(fewer, ignore_errors=True)
+    fewer.mkdir()
+    if libfuzzer(reader, ["-merge=1", "-timeout=2", fewer, corpus]).returncode == 0:
+        shutil.rmtree(corpus)
+        fewer.rename(corpus)
+
+
+def libfuzzer(reader, arguments):
     environment = dict(
         os.environ,
-        ASAN_OPTIONS="detect_leaks=0:quarantine_size_mb=16:allocator_may_return_null=1",
+        ASAN_OPTIONS="detect_leaks=0:quarantine_size_mb=16:malloc_context_size=2:allocator_may_return_null=1",
         UBSAN_OPTIONS="halt_on_error=1",
     )
-    result = subprocess.run(
-        [
-            FOLDER / "fuzz" / f"fuzz_{reader}",
-            f"-runs={executions}",
-            "-timeout=2",
-            "-rss_limit_mb=1024",
-            f"-max_len={most + 200}",
-        ]
-        + ["-print_final_stats=1", f"-artifact_prefix={faults}/", corpus],
+    return subprocess.run(
+        [FOLDER / "fuzz" / f"fuzz_{reader}", *arguments],
         env=environment,
         stderr=subprocess.PIPE,
         stdout=subprocess.DEVNULL,
         text=True,
         errors="replace",
     )
-    (FOLDER / "faults" / f"{reader}.log").write_text(result.stderr)
-    done = re.search(r"stat::number_of_executed_units: *(\d+)", result.stderr)
-    edges = re.findall(r" cov: (\d+) ", result.stderr)
-    bad = sorted(p.name for p in faults.iterdir())
-    if result.returncode and not bad:
-        bad = [f"ended with status {result.returncode}, see {FOLDER / 'faults' / reader}.log"]
-    return int(done[1]) if done else 0, int(edges[-1]) if edges else 0, bad
 
 
 def seeds(reader):
@@ -138,8 +154,20 @@ def seeds(reader):
     return paths
 
 
-def cut(text):
-    return text if len(text) <= MOST_SEED else text[: text.rfind(b"\n", 0, MOST_SEED) + 1]
+def shortened(path, reader):
+    """A file's beginning; of one that is nothing unless whole, what is left with two entries a list."""
+    text = path.read_bytes()
+    if path.suffix == ".json":
+        return json.dumps(two_entries(json.loads(text))).encode()
+    if reader in WHOLE or len(text) <= MOST_SEED:
+        return text
+    return text[: text.rfind(b"\n", 0, MOST_SEED) + 1]
+
+
+def two_entries(value):
+    if isinstance(value, list):
+        return [two_entries(v) for v in value[:2]]
+    return {k: two_entries(v) for k, v in value.items()} if isinstance(value, dict) else value
 
 
 def main():

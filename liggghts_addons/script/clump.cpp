@@ -32,18 +32,18 @@ bool hang_together(const std::vector<ClumpSphere>& spheres) {
 }
 
 // Volume and its moments of first and second order: 1, x, y, z, xx, xy, xz, yy, yz, zz.
-std::array<double, 10> moments(const std::vector<ClumpSphere>& spheres) {
+std::array<double, 10> moments(const std::vector<ClumpSphere>& spheres, int columns) {
   double low[2], step[2];
   for (int d = 0; d < 2; d++) {
     double high = -INFINITY;
     low[d] = INFINITY;
     for (const ClumpSphere& s : spheres) low[d] = std::min(low[d], s.x[d] - s.r), high = std::max(high, s.x[d] + s.r);
-    step[d] = (high - low[d]) / kClumpColumns;
+    step[d] = (high - low[d]) / columns;
   }
   std::array<double, 10> sum{};
   std::vector<std::pair<double, double>> pieces;  // of a column, in the spheres
-  for (int i = 0; i < kClumpColumns; i++)
-    for (int j = 0; j < kClumpColumns; j++) {
+  for (int i = 0; i < columns; i++)
+    for (int j = 0; j < columns; j++) {
       const double x = low[0] + (i + 0.5) * step[0], y = low[1] + (j + 0.5) * step[1];
       pieces.clear();
       for (const ClumpSphere& s : spheres) {
@@ -86,7 +86,7 @@ Clump Clump::scaled_to(double d) const {
   return result;
 }
 
-Clump Clump::read(const std::string& path) {
+Clump Clump::read(const std::string& path, int columns) {
   std::ifstream in(path);
   if (!in)
     throw BadInput(path, 0, "this clump cannot be read", "give the grain a file of spheres, or run with -var clump no");
@@ -108,7 +108,7 @@ Clump Clump::read(const std::string& path) {
   if (!hang_together(clump.spheres))
     throw BadInput(path, 0, "the spheres do not hang together", "let each overlap another one");
 
-  const std::array<double, 10> m = moments(clump.spheres);
+  const std::array<double, 10> m = moments(clump.spheres, columns);
   clump.volume = m[0];
   const double c[3] = {m[1] / m[0], m[2] / m[0], m[3] / m[0]};
   for (ClumpSphere& s : clump.spheres)

@@ -3,8 +3,8 @@
 
    File: `NAME.clump`, one sphere a line, `x y z r` in m, of the real grain; # begins a comment. Spheres may overlap.
 
-   Volume: of the union, counted once. Columns along z on a grid of kClumpColumns x kClumpColumns over the spheres,
-   exact in each column; a sphere comes out within 2e-5. LIGGGHTS' own way is Monte Carlo, 1e-3 at a million tries.
+   Volume: of the union, counted once. Columns along z on a grid of `columns` x `columns` over the spheres, exact in
+   each column; a sphere comes out within 2e-5 with 500. LIGGGHTS' own way is Monte Carlo, 1e-3 at a million tries.
 
    Scale: the union gets the volume of a sphere of the diameter asked for, the mass of that sphere, and the tensor of
    inertia of a homogeneous body of its shape about its centre of mass. */
@@ -35,7 +35,7 @@ struct Clump {
 
   // Errors: BadInput for a file that cannot be read, a line that is not four numbers, a radius <= 0, fewer than two
   // spheres (LIGGGHTS wants two), spheres that do not hang together.
-  static Clump read(const std::string& path);
+  static Clump read(const std::string& path, int columns = kClumpColumns);
 };
 
 }  // namespace vielto

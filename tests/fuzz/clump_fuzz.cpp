@@ -2,4 +2,4 @@
 #include "script/clump.h"
 #include "tests/fuzz/harness.h"
 
-VIELTO_FUZZ("clump.txt") { vielto::Clump::read(path); }
+VIELTO_FUZZ("clump.txt") { vielto::Clump::read(path, 10); }
