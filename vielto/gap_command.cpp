@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// vielto gap {isolability, diagnose, next, confirm, predict, discrepancy, plan, collect}: where the simulation departs
-// from a measurement, why, how far.
+// vielto gap {isolability, programme, diagnose, next, confirm, predict, discrepancy, plan, collect}: where the
+// simulation departs from a measurement, why, how far.
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -23,6 +23,7 @@
 #include "gap/question/answer.h"
 #include "gap/question/confirm.h"
 #include "gap/question/next_question.h"
+#include "gap/question/programme.h"
 #include "gap/question/question.h"
 #include "gap/question/sealed.h"
 #include "gap/question/simulated.h"
@@ -113,6 +114,19 @@ void run_isolability(const GapOptions& o) {
                from(i.isolable_from(e)), others.empty() ? "-" : fmt::format("{}", fmt::join(others, ", ")));
   }
   for (const std::string& note : q.model.notes) fmt::print("note: {}\n", note);
+}
+
+void run_programme(const GapOptions& o) {
+  const Question q(o.question());
+  std::vector<std::string> notes = q.model.notes;
+  const std::vector<ProgrammeStep> steps = programme(q, o.candidate_file(), notes);
+  if (!o.out.empty()) write_whole_file(o.out, programme_csv(steps));
+  fmt::print("{:<24}{:>7}{:>10}{:>12}  effects detectable from here on\n", "test", "hours", "so far", "told apart");
+  for (const ProgrammeStep& s : steps)
+    fmt::print("{:<24}{:>7.1f}{:>10.1f}{:>12}  {}\n", s.test, s.hours, s.all_hours,
+               fmt::format("{} of {}", s.told, s.possible),
+               s.detectable.empty() ? "-" : fmt::format("{}", fmt::join(s.detectable, ", ")));
+  for (const std::string& note : notes) fmt::print("note: {}\n", note);
 }
 
 std::string title_of(const GapOptions& o) {
@@ -301,9 +315,13 @@ void add_question_options(CLI::App* c, const Options& o) {
   c->add_option("--draws", o->draws, "of the bootstrap; without it those of the settings")->check(CLI::PositiveNumber);
 }
 
+void add_candidates_option(CLI::App* c, const Options& o) {
+  c->add_option("--candidates", o->candidates, "candidate tests; without it next_tests.toml beside the settings");
+}
+
 void add_answer_options(CLI::App* c, const Options& o) {
   c->add_option("--sealed", o->sealed, "isolability.json, sealed before the data: its threshold is taken");
-  c->add_option("--candidates", o->candidates, "candidate tests; without it next_tests.toml beside the settings");
+  add_candidates_option(c, o);
 }
 
 void add_isolability(CLI::App* gap, const Options& o) {
@@ -315,6 +333,17 @@ void add_isolability(CLI::App* gap, const Options& o) {
   add_question_options(c, o);
   c->add_option("--out", o->out, "folder for the answer");
   c->callback([o] { run_isolability(*o); });
+}
+
+void add_programme(CLI::App* gap, const Options& o) {
+  CLI::App* c = gap->add_subcommand("programme",
+                                    "before any data: which tests to add to these, best first for an hour of work\n"
+                                    "Told apart: effects from nothing and from one another. Example: vielto gap "
+                                    "programme planned.csv --library millet");
+  add_question_options(c, o);
+  add_candidates_option(c, o);
+  c->add_option("--out", o->out, "table to write (CSV)");
+  c->callback([o] { run_programme(*o); });
 }
 
 void add_diagnose(CLI::App* gap, const Options& o) {
@@ -420,8 +449,8 @@ void add_gap_command(CLI::App& app) {
   CLI::App* gap =
       app.add_subcommand("gap", "why simulation and measurement disagree: which effect, where, how far it closes");
   gap->require_subcommand(1);
-  for (const auto add :
-       {add_isolability, add_diagnose, add_confirm, add_next, add_predict, add_discrepancy, add_plan, add_collect})
+  for (const auto add : {add_isolability, add_programme, add_diagnose, add_confirm, add_next, add_predict,
+                         add_discrepancy, add_plan, add_collect})
     add(gap, o);
 }
 

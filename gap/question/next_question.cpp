@@ -29,20 +29,6 @@ Open open_models(const Diagnosis& diagnosis) {
   return open;
 }
 
-// The candidate's rows with what the simulation expects for values, and u.
-ReducedTable added_rows(const Question& question, const CandidateTest& test, const std::string& candidates) {
-  const Observation& like = question.fit.rows.front();
-  ReducedTable added = candidate_table(candidates, test, like.wall, like.material);
-  const TableModel alone = question.inputs.emulator.model(added, question.options.emulator, question.inputs.settings);
-  for (std::size_t i = 0; i < test.rows.size(); ++i) {
-    const Index k = static_cast<Index>(i);
-    added.rows[i].value = alone.baseline[k];
-    if (test.relative_u[i]) added.rows[i].u *= std::fabs(alone.baseline[k]);
-    added.covariance.coeffRef(k, k) = added.rows[i].u * added.rows[i].u;
-  }
-  return added;
-}
-
 bool knows_all(const TableModel& model, const Open& open) {
   return std::all_of(open.begin(), open.end(), [&](const ModelEvidence* m) {
     return std::all_of(m->effects.begin(), m->effects.end(), [&](const std::string& e) { return model.effect(e); });
@@ -79,6 +65,19 @@ void add_state_tests(const Question& question, const Open& open, bool unknown, c
 }
 
 }  // namespace
+
+ReducedTable added_rows(const Question& question, const CandidateTest& test, const std::string& candidates) {
+  const Observation& like = question.fit.rows.front();
+  ReducedTable added = candidate_table(candidates, test, like.wall, like.material);
+  const TableModel alone = question.inputs.emulator.model(added, question.options.emulator, question.inputs.settings);
+  for (std::size_t i = 0; i < test.rows.size(); ++i) {
+    const Index k = static_cast<Index>(i);
+    added.rows[i].value = alone.baseline[k];
+    if (test.relative_u[i]) added.rows[i].u *= std::fabs(alone.baseline[k]);
+    added.covariance.coeffRef(k, k) = added.rows[i].u * added.rows[i].u;
+  }
+  return added;
+}
 
 std::vector<NextTest> next_tests(const Question& question, const Diagnosis& diagnosis, const std::string& candidates,
                                  std::vector<std::string>& notes) {

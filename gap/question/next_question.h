@@ -13,4 +13,8 @@ namespace vielto::gap {
 std::vector<NextTest> next_tests(const Question& question, const Diagnosis& diagnosis, const std::string& candidates,
                                  std::vector<std::string>& notes);
 
+// The candidate's rows with what the simulation expects for values, and u. Errors: BadInput for rows or conditions that
+// the library does not reach; `candidates` is the file, for the message.
+ReducedTable added_rows(const Question& question, const CandidateTest& test, const std::string& candidates);
+
 }  // namespace vielto::gap

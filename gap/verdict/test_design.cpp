@@ -71,7 +71,9 @@ std::vector<CandidateTest> read_candidate_tests(const std::string& path) {
     for (const toml::node& entry : *rows) {
       if (!entry.is_table()) t.refuse("row", "is no list of tables", "write row = [{observable = ..., u = ...}]");
       const TomlTable r(path, *entry.as_table());
-      r.only({"observable", "u", "relative_u"});
+      toml::table own = r.raw();
+      for (const NamedCondition& c : kConditions) own.erase(c.name);
+      TomlTable(path, own).only({"observable", "u", "relative_u"});
       Observation row;
       row.test = test.name;
       row.role = Role::fit;
@@ -86,7 +88,7 @@ std::vector<CandidateTest> read_candidate_tests(const std::string& path) {
       test.relative_u.push_back(r.has("relative_u"));
       row.u = r.number(r.has("u") ? "u" : "relative_u", 1e-12, 1e12);
       for (const NamedCondition& c : kConditions)
-        if (t.has(c.name)) row.*c.member = t.number(c.name, -1e12, 1e12);
+        if (r.has(c.name) || t.has(c.name)) row.*c.member = (r.has(c.name) ? r : t).number(c.name, -1e12, 1e12);
       test.rows.push_back(row);
     }
     tests.push_back(test);

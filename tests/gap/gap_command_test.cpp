@@ -452,6 +452,114 @@ TEST_F(GapCommand, DiscrepancyFromDevelopmentLaws) {
   EXPECT_LT(sd, 0.10);
 }
 
+// What isolability.csv says is told apart at the best strength of each effect: from nothing beyond 4, from a rival
+// beyond 3.
+int told_apart_in(const fs::path& table) {
+  std::istringstream lines(content(table));
+  const auto cells_of = [](const std::string& line) {
+    std::vector<std::string> cells;
+    std::istringstream row(line);
+    for (std::string cell; std::getline(row, cell, ',');) cells.push_back(cell);
+    return cells;
+  };
+  std::string line;
+  std::getline(lines, line);
+  const std::vector<std::string> header = cells_of(line);
+  std::map<std::pair<std::string, std::string>, double> farthest;
+  while (std::getline(lines, line)) {
+    const std::vector<std::string> cells = cells_of(line);
+    for (std::size_t k = 2; k < cells.size(); ++k) {
+      if (k == 3 || cells[k].empty()) continue;  // the group; the effect itself
+      double& most = farthest[{cells[0], header[k]}];
+      most = std::max(most, std::stod(cells[k]));
+    }
+  }
+  int told = 0;
+  for (const auto& [pair, distance] : farthest) told += distance > (pair.second == "from_nothing" ? 4 : 3);
+  return told;
+}
+
+struct Step {
+  std::string test;
+  double hours, all_hours;
+  int told;
+};
+
+std::vector<Step> steps_of(const fs::path& table) {
+  std::vector<Step> steps;
+  std::istringstream lines(content(table));
+  std::string line;
+  std::getline(lines, line);
+  while (std::getline(lines, line)) {
+    std::vector<std::string> cells;
+    std::istringstream row(line);
+    for (std::string cell; std::getline(row, cell, ',');) cells.push_back(cell);
+    steps.push_back({cells[1], std::stod(cells[2]), std::stod(cells[3]), std::stoi(cells[4])});
+  }
+  return steps;
+}
+
+// The same counts by way of `isolability`, of tables to which the tests' rows are added by hand.
+TEST_F(GapCommand, ProgrammeGrowsByWhatTellsMostApartAnHour) {
+  const auto all = rows_;
+  const auto only = [&](const auto& wanted) {
+    std::vector<Observation> rows;
+    std::copy_if(all.begin(), all.end(), std::back_inserter(rows), wanted);
+    return rows;
+  };
+  rows_ = only([](const Observation& r) { return r.test == "mixer_l0.1_n0.5" && r.observable == "power"; });
+  std::vector<Observation> heap = only([](const Observation& r) { return r.apparatus == "repose"; });
+  std::vector<Observation> shear = only([](const Observation& r) { return r.test == "shear_v0.02"; });
+  ASSERT_EQ(rows_.size() * heap.size() * shear.size(), 1u);
+  heap[0].u = 0.4;
+  shear[0].u = 200;
+  std::ofstream(folder_ / "tests.toml")
+      << "[[test]]\nname = \"heap\"\napparatus = \"repose\"\nhow = \"slowly, with care\"\nhours = 1\n"
+         "row = [{observable = \"angle\", u = 0.4}]\n"
+         "[[test]]\nname = \"heap_of_many\"\napparatus = \"repose\"\nhow = \"often\"\nhours = 900\n"
+         "row = [{observable = \"angle\", u = 0.3}]\n"
+         "[[test]]\nname = \"shear\"\napparatus = \"shearbox\"\nhow = \"once\"\nhours = 0.25\n"
+         "row = [{observable = \"shear_stress_steady\", normal_stress = 19610, shear_velocity = 0.02, u = 200}]\n"
+         "[[test]]\nname = \"no_drum\"\napparatus = \"drum\"\nhow = \"look\"\nhours = 1\nspeed = 1\nfill = 0.5\ntilt = "
+         "0\n"
+         "row = [{observable = \"angle\", u = 1}]\n";
+  const auto told_with = [&](const std::vector<Observation>& one, const std::vector<Observation>& two) {
+    std::vector<Observation> rows = rows_;
+    rows.insert(rows.end(), one.begin(), one.end());
+    rows.insert(rows.end(), two.begin(), two.end());
+    write(rows);
+    EXPECT_EQ(gap("isolability t.csv --library library --draws 20 --out i"), 0) << err_;
+    return told_apart_in(folder_ / "i/isolability.csv");
+  };
+  const int none = told_with({}, {}), with_shear = told_with(shear, {}), with_heap = told_with(heap, {});
+  const int both = told_with(shear, heap);
+  ASSERT_GT(with_shear - none, 0);
+  ASSERT_GT(both, with_shear);
+  ASSERT_GT((with_shear - none) / 0.25, with_heap - none) << "the shear test is the better for an hour";
+
+  write(rows_);
+  ASSERT_EQ(gap("programme t.csv --library library --draws 20 --candidates tests.toml --out p.csv"), 0) << err_;
+  const std::vector<Step> steps = steps_of(folder_ / "p.csv");
+  ASSERT_GE(steps.size(), 3u);
+  EXPECT_EQ(steps[0].told, none);
+  EXPECT_EQ(steps[1].test, "shear");
+  EXPECT_EQ(steps[1].told, with_shear);
+  EXPECT_EQ(steps[2].test, "heap");
+  EXPECT_EQ(steps[2].told, both);
+  EXPECT_DOUBLE_EQ(steps[2].all_hours, 1.25);
+  EXPECT_NE(out_.find("left out: no_drum"), std::string::npos) << out_;
+  EXPECT_NE(content(folder_ / "p.csv").find("slowly; with care"), std::string::npos);
+}
+
+TEST_F(GapCommand, ProgrammeRefusesTestsThatItCannotRead) {
+  std::ofstream(folder_ / "tests.toml")
+      << "[[test]]\nname = \"a\"\napparatus = \"bench\"\nhow = \"with care\"\nhours = 1\n"
+         "row = [{observable = \"wall_angle\", u = 0.7, fil = 0.1}]\n";
+  EXPECT_EQ(gap("programme t.csv --library library --draws 20 --candidates tests.toml --out p.csv"), 2);
+  expect_one_line("fil");
+  EXPECT_FALSE(fs::exists(folder_ / "p.csv"));
+}
+
 TEST_F(GapCommand, NextTestRanksByGainPerHour) {
   ASSERT_EQ(gap("next t.csv --library library --draws 100"), 0) << err_;
   EXPECT_NE(out_.find("sd an hour"), std::string::npos);

@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Response libraries: runs added to one that was made earlier, what its effects do, and which tests show them.
+"""Response libraries: runs added to one that was made earlier, and what its effects do.
 
 A library is a folder that `vielto gap collect` makes of a campaign's runs (gap/README.md says what is in it).
 """
 from tools import command_line
-from tools.library import add, design, detectability, responses, shares
+from tools.library import add, design, responses, shares
 
-COMMANDS = {"add": add, "design": design, "responses": responses, "detectability": detectability, "shares": shares}
+COMMANDS = {"add": add, "design": design, "responses": responses, "shares": shares}
 
 
 def main():
