@@ -482,6 +482,9 @@ TEST(GapJudgement, SentencesTellTheVerdict) {
       verdict_sentence(d),
       "There is a gap, and these data do not settle its cause: a 20 % (27 % with its pairs), b 6 % (13 % with its "
       "pairs); unknown 5 %, no gap 41 %.");
+  d.models[1].probability = 0.8;  // of a
+  EXPECT_NE(verdict_sentence(d).find("a 80 % (87 % with its pairs)"), std::string::npos);
+  d.models[1].probability = 0.2;
   d.group = {"a", "b", "x", "y", "z"};
   EXPECT_NE(verdict_sentence(d).find("x 0 % (0 % with its pairs), 2 others; unknown"), std::string::npos);
 
