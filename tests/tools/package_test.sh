@@ -36,7 +36,9 @@ inside su stranger -c '
   small="-var grainDiameter 0.016 -var youngsModulus 2e5 -var wall_youngsModulus 2e5 -var maxOverlap 0.2 -var turns 3"
   liggghts-vielto -log none -in in.mixer -var fill 0.05 -var settleTime 0.2 $small >run.txt
   vielto post results/run
-  mpirun -np 2 liggghts-vielto -log none -in in.mixer -var fill 0.05 -var settleTime 0.2 $small -var run results/two >two.txt
+  # of a -var given twice LIGGGHTS takes the first
+  short="-var fill 0.05 -var settleTime 0.05 -var turns 0.1"
+  mpirun -np 2 liggghts-vielto -log none -in in.mixer $short $small -var run results/two >two.txt
   vielto gap predict --library millet --apparatus mixer --speed 1 --fill 0.15
   cd ~ && vielto fit mixing/libraries/millet/observations.csv --material hulled_millet --groups l,Fr_M >fit.txt'
 inside apt-get purge -y -qq vielto >/dev/null

@@ -9,7 +9,7 @@ folder=${1:-$(mktemp -d)}
 version=$(sed -n 's/^project(vielto VERSION \([0-9.]*\).*/\1/p' CMakeLists.txt)
 name=vielto-$version
 mkdir -p "$folder/bin"
-git archive --prefix="$name/" -o "$folder/$name.tar.gz" HEAD
+git -c tar.umask=0022 archive --prefix="$name/" -o "$folder/$name.tar.gz" HEAD
 tar xzf "$folder/$name.tar.gz" -C "$folder"
 
 cd "$folder/$name"
