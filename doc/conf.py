@@ -20,6 +20,7 @@ extensions = [
     "plot",
     "scores",
     "again",
+    "held_together",
     "questions",
 ]
 myst_enable_extensions = ["colon_fence", "dollarmath", "deflist"]

@@ -301,7 +301,7 @@ void add_figures(const json& d, Verdict verdict, Page& page) {
   if (const json* r = worst_region(d.at("where")))
     page.figures.push_back(
         {number(*r, "q_value") <= kFalseDiscoveries ? "Surest gap" : "Largest difference",
-         fmt::format("{} ± {}", percent(number(*r, "relative_gap"), "{:+.0f} %"), percent(number(*r, "u"))),
+         fmt::format("{} ± {}", percent(number(*r, "relative_gap"), "{:+.0f}"), percent(number(*r, "u"))),
          place(*r) + ", " + text(*r, "region")});
   for (const auto& [p, name] : causes(d)) {
     if (name == "no_gap" && verdict != Verdict::no_gap) continue;

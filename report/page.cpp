@@ -26,9 +26,21 @@ std::string bytes_of(const std::string& path, const std::string& mend) {
   return text.str();
 }
 
+// A number, its uncertainty and its % are one word: a line never breaks inside "12 ± 3 %".
+std::string held_together(std::string text) {
+  const std::string blank = " ", no_break = "\u00a0";
+  for (const std::string& inner : {blank + "%", blank + "±", "±" + blank}) {
+    for (std::size_t at = text.find(inner); at != std::string::npos; at = text.find(inner, at + 1)) {
+      const std::size_t place = inner.front() == ' ' ? at : at + inner.size() - 1;
+      text.replace(place, 1, no_break);
+    }
+  }
+  return text;
+}
+
 std::string escaped(const std::string& text) {
   std::string out;
-  for (const char c : text) switch (c) {
+  for (const char c : held_together(text)) switch (c) {
       case '&':
         out += "&amp;";
         break;

@@ -1,13 +1,15 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The directive {again} findings/end_walls: how a finding is made again, folded.
+"""The directive {again}: how a finding is made again, folded.
 
-The program `again` of that folder does it. The first line of comment behind its `#!` is the time that it takes, the page's
+The program `again` does it, in the folder of findings/ that is named as the page is, or in the one that is stated. The first
+line of comment behind its `#!` is the time that it takes, the page's
 title of the fold; behind it stand what it needs and the commands, which the page shows.
 """
 import re
 
 from docutils import nodes
-from from_code import FromFile
+from docutils.parsers.rst import Directive
+from results import ROOT, placed
 
 PREAMBLE = re.compile(r"#!.*|set -euo pipefail|cd \"\$\(dirname .*|# SPDX.*|")
 
@@ -19,15 +21,16 @@ def time_and_commands(text):
     return lines[0][2:], lines[1:]
 
 
-class Again(FromFile):
+class Again(Directive):
+    optional_arguments = 1
+
     def run(self):
-        program = self.path() / "again"
+        program = placed(self, "/".join([*self.arguments, "again"]))
         try:
-            self.state.document.settings.env.note_dependency(str(program))
             time, lines = time_and_commands(program.read_text(encoding="utf-8"))
         except (OSError, ValueError) as fault:
             raise self.error(f"{program}: {fault}") from fault
-        summary = f"<details><summary>Make it again: {self.arguments[0]}/again, {time}</summary>"
+        summary = f"<details><summary>Make it again: {program.relative_to(ROOT)}, {time}</summary>"
         commands = "\n".join(lines)
         return [
             nodes.raw("", summary, format="html"),

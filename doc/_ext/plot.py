@@ -30,7 +30,7 @@ import statistics
 from docutils import nodes
 from docutils.parsers.rst import directives
 from from_code import FromFile
-from results import ROOT, known_columns, matching, rows_of
+from results import ROOT, known_columns, matching, placed, rows_of
 from tools import files, pictures
 
 INK = "#010203"  # stands for the page's own colour
@@ -209,11 +209,11 @@ def at_path(content, path):
     return content
 
 
-def mark_of(text):
+def mark_of(text, find=lambda path: ROOT / path):
     """(label, value, u) of LABEL = VALUE ± U [of FILE]."""
     label, value, u, _, path = re.fullmatch(r"(.+?) = (\S+)(?: ± (\S+))?( of (\S+))?", text).groups()
     if path:
-        content = files.read_json(ROOT / path, "name a result of the repository")
+        content = files.read_json(find(path), "name a result of the repository")
         return label, at_path(content, value), at_path(content, u) if u else 0
     return label, float(value), float(u or 0)
 
@@ -232,8 +232,7 @@ class Plot(FromFile):
         parts = [part.strip().rpartition(" = ") for part in self.arguments[0].split(";")]
         rows = []
         for label, _, path in parts:
-            self.state.document.settings.env.note_dependency(str(ROOT / path))
-            rows += [{**row, "file": label} for row in rows_of(ROOT / path, self.options.get("list"))]
+            rows += [{**row, "file": label} for row in rows_of(placed(self, path), self.options.get("list"))]
         return matching(rows, self.options.get("where", ""))
 
     def run(self):
@@ -244,7 +243,7 @@ class Plot(FromFile):
                 values = [Value(part) for part in options["x"].split(";")]
                 places, series = lines_of(rows, values, options["rows"])
                 x = options.get("y") or (values[0].label if len(values) == 1 else "")
-                mark = mark_of(options["mark"]) if "mark" in options else None
+                mark = mark_of(options["mark"], lambda path: placed(self, path)) if "mark" in options else None
                 svg = draw_lines(places, series, x, options.get("log", ""), options.get("zero", ""), mark)
                 words = f"{x or ', '.join(v.label for v in values)} of {', '.join(places)}"
             else:

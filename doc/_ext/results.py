@@ -13,7 +13,8 @@ together where their cells of `by` are the same, in the order of their first row
 `by` each row stands alone. A
 column is shown as `LABEL = [mean|sd|u|min|max|n] [FACTOR] COLUMN [FORMAT]`: the mean of the group unless told otherwise,
 u the standard deviation over the root of the number of rows; a column of words as it is. A cell may hold two of them,
-WHAT ± WHAT. The path starts at the repository's root. Of a JSON file the list named behind its path is taken, `a.b` for the
+WHAT ± WHAT. Paths start in the folder of findings/ that is named as the page is, or at the repository's root. Of a JSON file
+the list named behind its path is taken, `a.b` for the
 keys of an object in it. With
 
     :across: speed 1/s = relative_gap +.0%
@@ -56,6 +57,15 @@ STATISTICS = {
     "min": min,
     "max": max,
 }
+
+
+def placed(directive, name):
+    """The file of this name in the page's own folder of findings/, or from the repository's root."""
+    environment = directive.state.document.settings.env
+    own = ROOT / "findings" / environment.docname.rsplit("/", 1)[-1] / name
+    path = own if own.exists() else ROOT / name
+    environment.note_dependency(str(path))
+    return path
 
 
 @functools.cache
@@ -184,9 +194,8 @@ class JsonValues(Directive):
         columns = files_named(self.options["files"])
         contents = []
         for _, path in columns:
-            self.state.document.settings.env.note_dependency(str(ROOT / path))
             try:
-                contents.append(Values(files.read_json(ROOT / path, "name a result of the repository")))
+                contents.append(Values(files.read_json(placed(self, path), "name a result of the repository")))
             except (OSError, ValueError) as fault:
                 raise self.error(f"{path}: {fault!r}") from fault
         body = []
@@ -213,8 +222,7 @@ class Results(Directive):
     }
 
     def run(self):
-        path = ROOT / self.arguments[0]
-        self.state.document.settings.env.note_dependency(str(path))
+        path = placed(self, self.arguments[0])
         try:
             rows = matching(rows_of(path, *self.arguments[1:]), self.options.get("where", ""))
             if not rows:

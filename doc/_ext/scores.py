@@ -1,18 +1,18 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The directive {scores}: the marks of a blind check as figure and table, with their 95 % intervals.
 
-    ```{scores} findings/withheld_drum
+    ```{scores}
     with bench rows = score.json; without = score_without_bench.json
     ```
 
-A column for each file of the folder. Shares of cases are drawn, of the first three files; a mark that no file has is left out.
+A column for each file. Shares of cases are drawn, of the first three files; a mark that no file has is left out.
 
 The directive {ratios} bench/results.json bench/ratios.csv: the ratios of a bench with the meaning of each. Those with a name
 under `drawn` are drawn as how many times as fast we are, turned round where `turned` says that the ratio is one of times.
 """
 from docutils.parsers.rst import Directive
 from plot import draw_lines, figure
-from results import ROOT, files_named, table
+from results import files_named, placed, table
 from tools import files, tables
 
 SHARES = {
@@ -35,27 +35,25 @@ def number(value):
 def cell(content, score):
     if content.get(score) is None:
         return "–"
-    interval = ", ".join(number(content[f"{score}_{end}"]) for end in ("low95", "high95"))
-    return f"{number(content[score])} [{interval}], {content[f'{score}_n']}"
+    interval = ",\u00a0".join(number(content[f"{score}_{end}"]) for end in ("low95", "high95"))
+    return f"{number(content[score])} [{interval}] of\u00a0{content[f'{score}_n']}"
 
 
 class Scores(Directive):
-    required_arguments = 1
     has_content = True
 
     def run(self):
         columns = files_named(" ".join(self.content))
         contents = []
         for _, name in columns:
-            path = ROOT / self.arguments[0] / name
-            self.state.document.settings.env.note_dependency(str(path))
+            path = placed(self, name)
             try:
                 contents.append(files.read_json(path, "name a score of the repository"))
             except (OSError, ValueError) as fault:
                 raise self.error(f"{path}: {fault!r}") from fault
         there = [s for s in {**SHARES, **OTHERS} if any(c.get(s) is not None for c in contents)]
         if not there:
-            raise self.error(f"{self.arguments[0]}: no file has a mark")
+            raise self.error("no file has a mark")
         body = [[{**SHARES, **OTHERS}[s], *(cell(c, s) for c in contents)] for s in there]
         shares = [s for s in there if s in SHARES]
         series = [
@@ -71,7 +69,7 @@ class Scores(Directive):
         ]
         words = "share of the cases, 95 % interval"
         svg = draw_lines([SHARES[s] for s in shares], series, words)
-        head = ["mark [95 % interval], cases", *(label for label, _ in columns)]
+        head = ["mark [95\u00a0% interval] of cases", *(label for label, _ in columns)]
         return [figure(svg, words), table(head, body)]
 
 
@@ -79,9 +77,7 @@ class Ratios(Directive):
     required_arguments = 2
 
     def run(self):
-        results, meanings = (ROOT / path for path in self.arguments)
-        for path in (results, meanings):
-            self.state.document.settings.env.note_dependency(str(path))
+        results, meanings = (placed(self, path) for path in self.arguments)
         measured = files.read_json(results, "make it with bench/run")
         body, places, points = [], [], []
         for row in tables.read(meanings, ["key", "drawn", "turned", "meaning"], "bring it back"):

@@ -2,7 +2,7 @@
 """report_browser.py PAGE.html SCREENSHOTS: open a report in headless Chromium as a person would, say what was seen.
 
 Prints JSON, one entry for each of phone and desktop, light and dark: console messages, every request that is not the
-page itself, the width of the page and of the window, the plots and the marks in each, the colour of the background.
+page itself, the width of the page and of the window, numbers torn from their % or ± by the end of a line, the plots and the marks in each, the colour of the background.
 Speaks WebDriver with chromedriver (Debian: chromium-driver); the standard library is enough for that.
 """
 import base64
@@ -23,7 +23,18 @@ const plots = [...document.querySelectorAll('.chart')].map(box => ({
   words: [...box.querySelectorAll('svg text')].map(text => text.textContent)}));
 const outside = [...document.querySelectorAll('main *')].filter(part => !part.closest('.wide, .chart') &&
   part.getBoundingClientRect().right > window.innerWidth + 1).map(part => part.tagName + ' ' + part.textContent.slice(0, 40));
-return {width: document.documentElement.scrollWidth, window: window.innerWidth, plots, outside,
+const torn = [];
+const walk = document.createTreeWalker(document.querySelector('main') || document.body, NodeFilter.SHOW_TEXT);
+for (let node = walk.nextNode(); node; node = walk.nextNode()) {
+  if (node.parentElement.closest('script, style, svg')) continue;
+  for (const found of node.data.matchAll(/\\d[\\s\\u00a0](%|±[\\s\\u00a0]\\d)/g)) {
+    const range = document.createRange();
+    range.setStart(node, found.index);
+    range.setEnd(node, found.index + found[0].length);
+    if (range.getClientRects().length > 1) torn.push(node.data.slice(Math.max(0, found.index - 20), found.index + 20));
+  }
+}
+return {width: document.documentElement.scrollWidth, window: window.innerWidth, plots, outside, torn,
         background: getComputedStyle(document.body).backgroundColor, headings: [...document.querySelectorAll('h2')].map(h => h.textContent),
         broken_pictures: [...document.images].filter(image => image.naturalWidth === 0).length, pictures: document.images.length};
 """

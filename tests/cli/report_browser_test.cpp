@@ -38,6 +38,7 @@ TEST_F(ReportInABrowser, OpensOfflineOnPhoneAndDesktopLightAndDark) {
     EXPECT_EQ(page["page_loads"], 1) << window;  // the log of requests does record
     EXPECT_LE(page["opened"]["width"], page["window"]) << window;
     EXPECT_TRUE(page["opened"]["outside"].empty()) << window << page["opened"]["outside"];
+    EXPECT_TRUE(page["opened"]["torn"].empty()) << window << page["opened"]["torn"];
     EXPECT_EQ(page["broken_pictures"], 0) << window;
     std::map<std::string, json> plots;
     for (const json& plot : page["opened"]["plots"]) plots[plot["name"]] = plot;
@@ -58,12 +59,14 @@ TEST_F(ReportInABrowser, OpensOfflineOnPhoneAndDesktopLightAndDark) {
 TEST_F(ReportInABrowser, ABadPageWouldBeSeen) {
   write("bad.html",
         "<!DOCTYPE html><title>bad</title><link rel=icon href='data:,'><main><div style='width:2000px'>wide</div>"
+        "<p style='width:1px'>12 % of 3 ± 1</p>"
         "<img src='http://127.0.0.1:9/x.png'></main><script>console.error('oh');</script>");
   const json seen = look("bad.html");
   for (const auto& [window, page] : seen.items()) {
     EXPECT_GE(page["console"].size(), 1u) << window;
     EXPECT_EQ(page["requests"].size(), 1u) << window << page["requests"];
     EXPECT_FALSE(page["outside"].empty()) << window;
+    EXPECT_EQ(page["torn"].size(), 2u) << window << page["torn"];
     EXPECT_EQ(page["broken_pictures"], 1) << window;
   }
 }
