@@ -424,12 +424,28 @@ void add_details(const json& d, Page& page) {
   page.sections.push_back(std::move(provenance));
 }
 
+// What the changed state is compared with, and how far one run of each observable scatters.
+Section reference_state(const json& r) {
+  Section section{"The reference state", {}};
+  section.blocks.push_back(
+      Paragraph{fmt::format("The question is what has changed since this state, in which the model was validated: {} "
+                            "rows of {}. The calibrated simulation describes them with a probability of {:.2g}.",
+                            r.at("rows").get<int>(), text(r, "table"), number(r, "chi2_probability"))});
+  if (number(r, "transfer") > 0)
+    section.blocks.push_back(Paragraph{
+        fmt::format("{} of what calibration and law leave open is left in.", percent(number(r, "transfer")))});
+  Table table{"How far one run scatters", {"observable", "one run, %", "the library's seeds, %", "known from"}, {}};
+  for (const json& s : r.at("scatter"))
+    table.rows.push_back({place(s), fmt::format("{:.1f}", 100 * number(s, "sd")),
+                          fmt::format("{:.1f}", 100 * number(s, "library")),
+                          fmt::format("repeats with {:g} degrees of freedom{}", number(s, "degrees_of_freedom"),
+                                      s.at("assumed").get<bool>() ? "; widened, since so few exclude little" : "")});
+  section.blocks.push_back(table);
+  return section;
+}
+
 void add_sections(const json& d, Verdict verdict, const std::string& name, Page& page) {
-  if (d.contains("reference") && !d["reference"].is_null())
-    page.sections.push_back(
-        {"The reference state",
-         {Paragraph{"The question is what has changed since this state, in which the model was validated."},
-          json_table(d["reference"])}});
+  if (d.contains("reference") && !d["reference"].is_null()) page.sections.push_back(reference_state(d["reference"]));
   add_plots(d, name, page);
 
   Section map{"Map of the gap", {Paragraph{regions_found(d.at("where"))}}};

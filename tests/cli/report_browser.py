@@ -2,7 +2,8 @@
 """report_browser.py PAGE.html SCREENSHOTS: open a report in headless Chromium as a person would, say what was seen.
 
 Prints JSON, one entry for each of phone and desktop, light and dark: console messages, every request that is not the
-page itself, the width of the page and of the window, numbers torn from their % or ± by the end of a line, the plots and the marks in each, the colour of the background.
+page itself, the width of the page and of the window, numbers torn from their % or ± by the end of a line, the plots and the
+marks in each, the colour of the background.
 Speaks WebDriver with chromedriver (Debian: chromium-driver); the standard library is enough for that.
 """
 import base64

@@ -126,7 +126,8 @@ TEST_F(Report, OfADiagnosisShowsVerdictMapAndBands) {
   const std::string page = content(out / "report.html");
   for (const char* part :
        {"<p class=\"verdict\">There is a gap, explained by drive loss", "Cause named", "with drive loss",
-        "Map of the gap", "any other two together", "Next test", "weigh the load", "The reference state"})
+        "Map of the gap", "any other two together", "Next test", "weigh the load", "The reference state",
+        "6 rows of as_delivered.csv", "<td>mixer power</td><td class=\"number\">7.1</td>", "repeats with 3 degrees"})
     EXPECT_NE(page.find(part), std::string::npos) << part;
   const auto simulated = series(out / "diagnosis_mixer_power_over_speed_fill_0_1.csv", "simulated");
   ASSERT_EQ(simulated.size(), 4u);

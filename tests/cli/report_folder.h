@@ -60,7 +60,17 @@ class Report : public CommandTest {
     d["group"] = json::array();
     d["sentence"] = "There is a gap, explained by drive_loss.";
     d["next_test"]["name"] = "weigh_the_load";
-    d["reference"] = {{"state", "as delivered"}};
+    d["reference"] = {{"table", "as_delivered.csv"},
+                      {"rows", 6},
+                      {"chi2_probability", 0.4},
+                      {"transfer", 0.2},
+                      {"scatter",
+                       {{{"apparatus", "mixer"},
+                         {"observable", "power"},
+                         {"sd", 0.071},
+                         {"degrees_of_freedom", 3},
+                         {"assumed", true},
+                         {"library", 0.034}}}}};
     d.erase("points");
     d["shrink"]["runs"] = {{{"test", "t_0.10_3"},
                             {"observable", "power"},
