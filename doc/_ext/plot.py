@@ -30,7 +30,7 @@ import statistics
 from docutils import nodes
 from docutils.parsers.rst import directives
 from from_code import FromFile
-from results import ROOT, known_columns, matching, placed, rows_of
+from results import ROOT, files_named, known_columns, matching, placed, rows_of
 from tools import files, pictures
 
 INK = "#010203"  # stands for the page's own colour
@@ -229,9 +229,8 @@ class Plot(FromFile):
 
     def read(self):
         """Rows of all files; of several, each with its label as `file`."""
-        parts = [part.strip().rpartition(" = ") for part in self.arguments[0].split(";")]
         rows = []
-        for label, _, path in parts:
+        for label, path in files_named(self.arguments[0]):
             rows += [{**row, "file": label} for row in rows_of(placed(self, path), self.options.get("list"))]
         return matching(rows, self.options.get("where", ""))
 

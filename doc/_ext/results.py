@@ -19,7 +19,7 @@ keys of an object in it. With
 
     :across: speed 1/s = relative_gap +.0%
 
-every value of that column, with the unit behind it, is a further column that shows this.
+every value of that column, with the unit behind it, is a further column that shows this. `:folded: TITLE` folds the table.
 
 The directive {values}: the same from JSON files, a row for each template and a column for each file (LABEL = PATH).
 
@@ -175,11 +175,23 @@ class Values(string.Formatter):
 
 
 def files_named(text):
-    """[(label, path)] of `LABEL = PATH; ...`, or of one path with the labels in it."""
+    """[(label, path)] of `LABEL = PATH; ...`, of one path with the labels in it, or of a path without any."""
     choice = re.fullmatch(r"(.*)\{([^}]+)\}(.*)", text.strip())
     if choice:
         return [(word, f"{choice[1]}{word}{choice[3]}") for word in choice[2].split(",")]
-    return [tuple(part.strip() for part in file.split(" = ", 1)) for file in text.split(";")]
+    parts = [file.strip().rpartition(" = ") for file in text.split(";")]
+    return [(label.strip(), path.strip()) for label, _, path in parts]
+
+
+def folded(title, nodes_of_table):
+    """What is there for who asks: under its title, closed."""
+    if not title:
+        return nodes_of_table
+    return [
+        nodes.raw("", f"<details><summary>{title}</summary>", format="html"),
+        *nodes_of_table,
+        nodes.raw("", "</details>", format="html"),
+    ]
 
 
 class JsonValues(Directive):
@@ -219,6 +231,7 @@ class Results(Directive):
         "where": directives.unchanged,
         "by": directives.unchanged,
         "show": directives.unchanged_required,
+        "folded": directives.unchanged_required,
     }
 
     def run(self):
@@ -238,7 +251,8 @@ class Results(Directive):
             ]
         except (OSError, KeyError, ValueError) as fault:
             raise self.error(f"{self.arguments[0]}: {fault!r}") from fault
-        return [table([label for label, _ in columns] + [label for label, _ in spread_out], cells)]
+        head = [label for label, _ in columns] + [label for label, _ in spread_out]
+        return folded(self.options.get("folded"), [table(head, cells)])
 
 
 def across_columns(option, rows):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The directive {scores}: the marks of a blind check as figure and table, with their 95 % intervals.
+"""The directive {scores}: the marks of a blind check as figure and, folded, as table, with their 95 % intervals.
 
     ```{scores}
     with bench rows = score.json; without = score_without_bench.json
@@ -12,7 +12,7 @@ under `drawn` are drawn as how many times as fast we are, turned round where `tu
 """
 from docutils.parsers.rst import Directive
 from plot import draw_lines, figure
-from results import files_named, placed, table
+from results import files_named, folded, placed, table
 from tools import files, tables
 
 SHARES = {
@@ -70,7 +70,7 @@ class Scores(Directive):
         words = "share of the cases, 95 % interval"
         svg = draw_lines([SHARES[s] for s in shares], series, words)
         head = ["mark [95\u00a0% interval] of cases", *(label for label, _ in columns)]
-        return [figure(svg, words), table(head, body)]
+        return [figure(svg, words), *folded("The marks as numbers", [table(head, body)])]
 
 
 class Ratios(Directive):
