@@ -171,6 +171,7 @@ class Values(string.Formatter):
             text = self.format(template)
         except KeyError:
             return "–"
+        text = re.sub(r"(?<=\d)%", "\u00a0%", text)
         return re.sub(r"-(?=[\d.])", "−", re.sub(r"-(0(?:\.0+)?)(?![\d.])", r"\1", text))  # no -0.00
 
 
