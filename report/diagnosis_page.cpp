@@ -377,12 +377,16 @@ void add_plots(const json& d, const std::string& name, Page& page) {
     page.sections.push_back(std::move(compared));
     return;
   }
-  compared.blocks.push_back(
-      Paragraph{"Measured values have 95 % intervals. The lines and bands of the simulation, as calibrated and with "
-                "the effect in "
-                "question, are the emulator's: 95 %, of all that is uncertain about it. Points called \"run again\" "
-                "are the runs of "
-                "the proof."});
+  const json& points = d["points"];
+  const bool effect = std::any_of(points.begin(), points.end(), [](const json& p) { return p.contains("after"); });
+  std::string words = fmt::format(
+      "Measured values have 95 % intervals. The lines and bands of the simulation, as calibrated{}, are the "
+      "emulator's: "
+      "95 %, of all that is uncertain about it.",
+      effect ? " and with the effect in question" : "");
+  if (const json shrink = d.value("shrink", json()); !shrink.is_null() && shrink.contains("runs"))
+    words += " Points called \"run again\" are the runs of the proof.";
+  compared.blocks.push_back(Paragraph{words});
   const auto plots = comparison_plots(with_runs(d), name, with_effect(d));
   std::vector<Section> more;
   for (std::size_t i = 0; i < plots.size(); ++i) {

@@ -246,7 +246,7 @@ def test(folder):
 
     # two processes in one folder: the first goes on, the second is told
     two = folder / "two"
-    slow = ["liggghts", *small, "-var", "turns", "40", "-var", "run", two]
+    slow = ["liggghts", *small, "-var", "turns", "4000", "-var", "run", two]
     first = subprocess.Popen(
         [str(w) for w in slow], cwd=ROOT / "cases/mixer", env=ENVIRONMENT, stdout=subprocess.DEVNULL
     )
