@@ -158,19 +158,25 @@ TEST(GapJudgement, TheFamilyIsCalibratedAnew) {
   EXPECT_NEAR(recalibrated_parameters(m, {"a"}, {1})[0], expected(-80), 1e-12);
 }
 
-// b can stand in for a (distance 2), c cannot (9).
-TEST(GapJudgement, APlaceboIsTheBestEffectFromOutside) {
+// Every effect at this distance from nothing and from every other at this strength; a group ends at 3.
+Isolability all_apart(const std::vector<std::string>& effects, double strength, double distance) {
   Isolability isolability;
-  isolability.effects = {"a", "b", "c", "d"};
+  isolability.effects = effects;
   isolability.group_distance = 3;
-  for (std::size_t e = 0; e < 4; ++e) {
+  for (std::size_t e = 0; e < effects.size(); ++e) {
     StrengthTable t;
-    t.strengths = {0, 1};
-    t.from_nothing = {0, 9};
-    t.from_rival.assign(4, {0, 9});
+    t.strengths = {0, strength};
+    t.from_nothing = {0, distance};
+    t.from_rival.assign(effects.size(), {0, distance});
     t.from_rival[e].clear();
     isolability.tables.push_back(t);
   }
+  return isolability;
+}
+
+// b can stand in for a (distance 2), c cannot (9).
+TEST(GapJudgement, APlaceboIsTheBestEffectFromOutside) {
+  Isolability isolability = all_apart({"a", "b", "c", "d"}, 1, 9);
   isolability.tables[0].from_rival[1] = {0, 2};
   Diagnosis d;
   d.verdict = Verdict::named;
@@ -264,17 +270,7 @@ TEST(GapJudgement, AShrinkIsPredictedByTheFirstOrder) {
   m.family_weights = vector({1});
   m.family_members = m.family_shift;
   m.emulator(1, 1) = 0.09;
-  Isolability isolability;
-  isolability.effects = {"a", "b", "c"};
-  isolability.group_distance = 3;
-  for (std::size_t e = 0; e < 3; ++e) {
-    StrengthTable t;
-    t.strengths = {0, 4};
-    t.from_nothing = {0, 90};
-    t.from_rival.assign(3, {0, 90});
-    t.from_rival[e].clear();
-    isolability.tables.push_back(t);
-  }
+  const Isolability isolability = all_apart({"a", "b", "c"}, 4, 90);
   Diagnosis d;
   d.verdict = Verdict::named;
   d.named = {"a"};
