@@ -65,7 +65,7 @@ class NormalModel<COHFRICT> : public NormalModelBase {
   void postSettings(IContactHistorySetup*, ContactModelBase* cmb) {
     for (const char* name : {"wallRadiusFactor", "maxOverlap"}) vielto::refuse_no_number(lmp, name);
     if (!(wallRadiusFactor_ > 0)) vielto::stop_all(lmp, "cohfrict: wallRadiusFactor must be > 0 (default 2)");
-    if (!(overlaps_.limit >= 0)) vielto::stop_all(lmp, "cohfrict: maxOverlap must be >= 0 (0: no limit)");
+    overlaps_.check_limit(lmp);
     if (!cmb->is_wall()) vielto::settings() = {1.0, wallRadiusFactor_, COHFRICT, overlaps_.limit};
   }
 

@@ -48,7 +48,7 @@ class WatchedModel : public NormalModel<Stock> {
   void postSettings(IContactHistorySetup* hsetup, ContactModelBase* cmb) {
     vielto::refuse_no_number(this->lmp, "maxOverlap");
     Base::postSettings(hsetup, cmb);
-    if (!(overlaps_.limit >= 0)) vielto::stop_all(this->lmp, "vielto: maxOverlap must be >= 0 (0: no limit)");
+    overlaps_.check_limit(this->lmp);
     const bool hertz = Stock == HERTZ;
     if (hertz && overlaps_.limit == 0)
       vielto::stop_all(this->lmp,

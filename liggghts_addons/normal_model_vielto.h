@@ -49,7 +49,7 @@ class NormalModel<VIELTO> : public NormalModelBase {
     for (const char* name : {"springFactor", "wallRadiusFactor", "maxOverlap"}) vielto::refuse_no_number(lmp, name);
     if (!(springFactor_ > 0)) vielto::stop_all(lmp, "vielto: springFactor must be > 0 (4 as printed, or 1)");
     if (!(wallRadiusFactor_ > 0)) vielto::stop_all(lmp, "vielto: wallRadiusFactor must be > 0 (default 2)");
-    if (!(overlaps_.limit >= 0)) vielto::stop_all(lmp, "vielto: maxOverlap must be >= 0 (0: no limit)");
+    overlaps_.check_limit(lmp);
     vielto::Settings& shared = vielto::settings();
     if (cmb->is_wall() && shared.law == VIELTO &&
         (shared.springFactor != springFactor_ || shared.wallRadiusFactor != wallRadiusFactor_))

@@ -101,7 +101,7 @@ class NormalModel<WALTON_BRAUN> : public NormalModelBase {
     for (const char* name : {"springFactor", "wallRadiusFactor", "maxOverlap"}) vielto::refuse_no_number(lmp, name);
     if (!(springFactor_ > 0)) vielto::stop_all(lmp, "walton_braun: springFactor must be > 0 (default 4)");
     if (!(wallRadiusFactor_ > 0)) vielto::stop_all(lmp, "walton_braun: wallRadiusFactor must be > 0 (default 2)");
-    if (!(overlaps_.limit >= 0)) vielto::stop_all(lmp, "walton_braun: maxOverlap must be >= 0 (0: no limit)");
+    overlaps_.check_limit(lmp);
     if (cmb->is_wall()) return;
     vielto::Settings& shared = vielto::settings();
     shared.springFactor = springFactor_;

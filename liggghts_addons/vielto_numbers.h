@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /* Settings that are no numbers. LIGGGHTS reads a setting's number with atof, so that `springFactor 1,5` is 1 and
-   `maxOverlap 5%` is 5 without a word. The words of the command that is being executed (pair_style, fix wall/gran) are
-   there to look at again. */
+   `maxOverlap 5%` is 5 without a word; infinity is no number either. The words of the command that is being executed
+   (pair_style, fix wall/gran) are there to look at again. */
 #ifndef VIELTO_NUMBERS_H
 #define VIELTO_NUMBERS_H
 
@@ -23,8 +23,8 @@ inline void refuse_no_number(LAMMPS_NS::LAMMPS* lmp, const char* setting) {
     if (strcmp(input->arg[k], setting)) continue;
     const char* const word = input->arg[k + 1];
     char* end = NULL;
-    strtod(word, &end);
-    if (end != word && !*end) continue;
+    const double value = strtod(word, &end);
+    if (end != word && !*end && value - value == 0) continue;
     stop_all(lmp,
              (std::string("vielto: ") + setting + " takes a number with a decimal point, not '" + word + "'").c_str());
   }

@@ -29,6 +29,12 @@ struct OverlapWatch {
 
   OverlapWatch() : limit(0.0) {}
 
+  // Called by postSettings. Over 1 no overlap can be: a percentage would be no limit at all.
+  void check_limit(LAMMPS_NS::LAMMPS* lmp) const {
+    if (!(limit >= 0 && limit <= 1))
+      stop_all(lmp, "vielto: maxOverlap must be from 0 (no limit) to 1: it is a part of the grain's diameter");
+  }
+
   // sidata.Fn is the normal force, sidata.deltan the overlap
   void note(LAMMPS_NS::LAMMPS* lmp, const LIGGGHTS::ContactModels::SurfacesIntersectData& sidata,
             double diameter) const {

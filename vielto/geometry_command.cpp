@@ -15,6 +15,8 @@
 namespace vielto {
 namespace {
 
+constexpr double kLargestMachine = 10;  // m
+
 struct Options {
   std::string par_file, folder, picture, check;
   std::vector<std::string> settings;
@@ -30,6 +32,13 @@ void check(const Options& o) {
     fmt::print("volume {:.6g} m3 (normals {})\n", m.volume, m.volume > 0 ? "outward" : "inward");
   else
     fmt::print("open, so no volume\n");
+  const Point size = m.high - m.low;
+  fmt::print("extents {:.6g} x {:.6g} x {:.6g} m, from {:.6g} {:.6g} {:.6g}\n", size.x(), size.y(), size.z(), m.low.x(),
+             m.low.y(), m.low.z());
+  if (size.maxCoeff() > kLargestMachine)
+    fmt::print(
+        "note: that is {:.4g} m long; are its lengths in mm? LIGGGHTS takes m (or scale 0.001 of fix mesh/surface)\n",
+        size.maxCoeff());
   if (!checked.fault.empty())
     throw BadInput(o.check, 0, checked.fault,
                    "export it again as text; 'vielto geometry' of a machine reads it as it is");

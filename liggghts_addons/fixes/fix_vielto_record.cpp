@@ -179,13 +179,14 @@ void FixViEltoRecord::check_motion(const Part& part, const Mesh& mesh) const {
   Corners* const velocities = triangles->prop().getElementProperty<Corners>("v");
   const double omega = 2 * M_PI * speed_;
   double mine[3] = {0, 0, 0}, most[3];  // greatest: speed, speed of a corner that turns as told, difference of both
-  for (int i = 0; velocities && i < triangles->sizeLocal(); i++)
+  const double still[3] = {0, 0, 0};    // a mesh that nothing moves keeps no velocities
+  for (int i = 0; i < triangles->sizeLocal(); i++)
     for (int k = 0; k < 3; k++) {
       double r[3], turned[3], off[3];
       triangles->node(i, k, r);
       for (int d = 0; d < 3; d++) r[d] -= origin_[d];
       cross3(axis_, r, turned);
-      const double* const v = velocities->begin()[i][k];
+      const double* const v = velocities ? velocities->begin()[i][k] : still;
       for (int d = 0; d < 3; d++) off[d] = v[d] - omega * turned[d];
       mine[0] = std::max(mine[0], std::sqrt(dot3(v, v)));
       mine[1] = std::max(mine[1], omega * std::sqrt(dot3(turned, turned)));

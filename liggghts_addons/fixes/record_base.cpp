@@ -63,7 +63,7 @@ double FixViEltoRows::number(char** arg, int i) const { return force->numeric(FL
 
 void FixViEltoRows::parse(int narg, char** arg, Keywords own) {
   Keywords keywords = own;
-  keywords["every"] = [&](int i) { return every_ = static_cast<int>(number(arg, i + 1)), 1; };
+  keywords["every"] = [&](int i) { return every_ = force->inumeric(FLERR, arg[i + 1]), 1; };
   keywords["file"] = [&](int i) { return path_ = arg[i + 1], 1; };
   keywords["dtLimit"] = [&](int i) { return dtLimit_ = number(arg, i + 1), 1; };
   keywords["part"] = [&](int i) { return read_part(i, narg, arg, false); };
@@ -92,6 +92,7 @@ int FixViEltoRows::read_part(int i, int narg, char** arg, bool stands) {
   Part part;
   part.name = arg[i + 1];
   part.stands = stands || part.name == "drum";
+  check_name(part.name);
   for (int k = i + 2; k < narg && modify->find_fix(arg[k]) >= 0; k++) {
     Mesh mesh;
     mesh.id = arg[k];
@@ -109,6 +110,18 @@ int FixViEltoRows::read_part(int i, int narg, char** arg, bool stands) {
                           ", so that its torque would count twice; name it once")
                              .c_str());
   return 1 + static_cast<int>(part.meshes.size());
+}
+
+// A part's name begins the names of its columns.
+void FixViEltoRows::check_name(const std::string& name) {
+  for (const Part& other : parts_)
+    if (other.name == name)
+      error->fix_error(FLERR, this,
+                       ("part " + name + " is given twice; name its meshes behind one 'part " + name + "'").c_str());
+  if (name == "idle" || name == "gravity")
+    error->fix_error(FLERR, this, ("part " + name + " has the name of a column of its own; take another").c_str());
+  if (name.find_first_of(",#\"'") != std::string::npos)
+    error->fix_error(FLERR, this, ("part " + name + ": take a name without commas, quotes and #").c_str());
 }
 
 int FixViEltoRows::setmask() { return PRE_FORCE | END_OF_STEP; }

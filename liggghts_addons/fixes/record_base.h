@@ -106,6 +106,7 @@ class FixViEltoRows : public Fix {
 
  private:
   int read_part(int i, int narg, char** arg, bool stands);
+  void check_name(const std::string& name);
   void open_file();
   void cut_file();
   void take_up_forces();

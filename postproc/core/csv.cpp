@@ -68,12 +68,17 @@ struct Difference {
 };
 
 Difference difference(std::string_view line, std::string_view header) {
+  if (line.substr(0, 2) == "\xFF\xFE" || line.substr(0, 2) == "\xFE\xFF") return {"is UTF-16 text", "save it as UTF-8"};
+  if (line.substr(0, 4) == "sep=") return {"names a separator for a spreadsheet", "leave this line out"};
   const std::vector<std::string> wanted = split_names(header, ',');
   for (const auto& [separator, name] : {std::pair{';', "semicolons"}, {'\t', "tabs"}, {'|', "bars"}})
     if (bare(split_names(line, separator), " \"\t", true) == wanted)
       return {fmt::format("is separated by {}", name),
               "save it separated by commas, with a decimal point in its numbers (not a decimal comma)"};
   const std::vector<std::string> there = split_names(line, ',');
+  if (line.size() > header.size() && line.substr(0, header.size()) == header &&
+      line.find_first_not_of(',', header.size()) == std::string_view::npos)
+    return {"has columns without a name", "save the table without what stands empty beside it"};
   if (bare(there, "\"") == wanted) return {"has quotes around its names", "save it without quotes"};
   if (bare(there, " \t\"") == wanted)
     return {"has blanks around its names", "write commas with nothing before or behind them"};

@@ -78,6 +78,7 @@ class TableCheck {
     if (!std::isfinite(row.value)) place.refuse("value", "is not finite", "state a finite value");
     if (!(row.u * row.u > 0) || !(row.u > 0) || !std::isfinite(row.u * row.u))
       place.refuse("u", fmt::format("{} is no standard uncertainty", row.u), "state one above 0");
+    possible(row, place);
     for (const NamedCondition& c : kConditions) {
       const auto& value = row.*c.member;
       if (value && !(*value >= c.low && *value <= c.high))
@@ -88,6 +89,16 @@ class TableCheck {
   }
 
  private:
+  // What no error of measurement gives: a slope over 90 degrees; a value surely below zero where the table of rigs has
+  // one sign
+  void possible(const Observation& row, const Place& place) const {
+    if (row.unit == "deg" && !(std::fabs(row.value) < 90))
+      place.refuse("value", fmt::format("{} is {} degrees", row.observable, row.value), "state an angle below 90");
+    const NamedObservable* const named = find_observable(row.apparatus, row.observable);
+    if (named && !named->any_sign && row.value < -4 * row.u)
+      place.refuse("value", fmt::format("{} is {}, which is surely below 0", row.observable, row.value),
+                   "turn its sign");
+  }
   void refuse_observable(const Observation& row, const Place& place) const {
     std::vector<std::string> names;
     for (const NamedObservable& o : observables_of(row.apparatus)) names.push_back(o.name);

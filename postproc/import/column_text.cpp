@@ -121,7 +121,7 @@ ColumnText read_column_text(const std::string& path) {
     std::string plain = line;
     std::replace(plain.begin(), plain.end(), '\t', ' ');
     if (!is_plain_utf8(plain))
-      throw BadInput(path, number, "is no text", "unpack it first if it is packed (.bz2, .gz)");
+      throw BadInput(path, number, "is no text", "unpack it first if it is packed (.bz2, .gz), save UTF-16 as UTF-8");
     const auto begin = line.find_first_not_of(" \t");
     if (begin == std::string::npos) continue;
     const bool comment = line[begin] == '#';
@@ -142,7 +142,9 @@ ColumnText read_column_text(const std::string& path) {
       if (!value)
         throw BadInput(path, number, text.names.size() > row.size() ? text.names[row.size()] : "",
                        fmt::format("'{}' is not a finite number", field),
-                       "write decimal numbers, their columns divided as the names are");
+                       field.find(':') == std::string::npos
+                           ? "write decimal numbers, their columns divided as the names are"
+                           : "clock times are read by vielto import logger");
       row.push_back(*value);
     }
     if (row.size() != text.names.size())

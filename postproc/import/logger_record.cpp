@@ -215,7 +215,7 @@ LoggerRecord read_logger(const std::string& path, const LoggerColumns& c) {
     ++number_of_line;
     if (number_of_line == 1 && line.compare(0, 3, "\xEF\xBB\xBF") == 0) line.erase(0, 3);
     if (line.find('\0') != std::string::npos)
-      throw BadInput(path, number_of_line, "is no text", "export the record as text (CSV)");
+      throw BadInput(path, number_of_line, "is no text", "export the record as text (CSV, UTF-8)");
     if (!header) {
       header = header_of(line, c);
       if (header && !c.time.empty() && header->time == header->names.size())

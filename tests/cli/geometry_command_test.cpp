@@ -180,12 +180,16 @@ TEST_F(GeometryCommand, RefusesAMissingEmptyCorruptOrOpenMesh) {
 TEST_F(GeometryCommand, CheckTellsBinaryFilesThatBeginAsText) {
   const float corners[4][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   const int faces[4][3] = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}};
-  const auto binary = [&](std::string header) {
+  const auto binary = [&](std::string header, float size = 1) {
     header.resize(80, ' ');
     header += std::string("\4\0\0\0", 4);
     for (const auto& face : faces) {
       header += std::string(12, '\0');  // the normal, which nobody reads
-      for (const int i : face) header.append(reinterpret_cast<const char*>(corners[i]), 12);
+      for (const int i : face)
+        for (const float x : corners[i]) {
+          const float scaled = size * x;
+          header.append(reinterpret_cast<const char*>(&scaled), 4);
+        }
       header += std::string(2, '\0');
     }
     return header;
@@ -194,6 +198,11 @@ TEST_F(GeometryCommand, CheckTellsBinaryFilesThatBeginAsText) {
   Outcome outcome = check("binary.stl", "--closed");
   EXPECT_EQ(outcome.status, 0) << outcome.text;
   EXPECT_NE(outcome.text.find("volume 0.166667 m3 (normals outward)"), std::string::npos) << outcome.text;
+  EXPECT_NE(outcome.text.find("extents 1 x 1 x 1 m, from 0 0 0"), std::string::npos) << outcome.text;
+  EXPECT_EQ(outcome.text.find("note:"), std::string::npos) << outcome.text;
+  write("mm.stl", binary("made by CAD", 300));
+  outcome = check("mm.stl");
+  EXPECT_NE(outcome.text.find("note: that is 300 m long; are its lengths in mm?"), std::string::npos) << outcome.text;
   write("solid.stl", binary("solid made by CAD"));
   outcome = check("solid.stl", "--closed");
   EXPECT_EQ(outcome.status, 2);

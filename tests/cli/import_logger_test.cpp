@@ -200,6 +200,12 @@ TEST_F(ImportLogger, BadInputIsOneLine) {
               std::string::npos)
         << time;
   }
+  std::string wide = "\xFF\xFE";  // UTF-16, as a spreadsheet's "Unicode text" is
+  for (const char c : plain()) wide += {c, '\0'};
+  write("wide.txt", wide);
+  EXPECT_NE(refusal("wide.txt --value-column P --time-column t")
+                .find("wide.txt, line 1: is no text; export the record as text (CSV, UTF-8)"),
+            std::string::npos);
   write("short.txt", plain());
   EXPECT_NE(refusal("short.txt --value-column P --time-column t --from 1 --to 1e12").find("ends at 119.9 s"),
             std::string::npos);

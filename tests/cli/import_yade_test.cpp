@@ -419,6 +419,9 @@ TEST_F(ImportYade, RefusesBadInputInOneLine) {
   refuses(torque_, "line 1: begins with numbers");
   write("plot.txt", std::string("BZh9\x31\x41\x59\x00", 8));
   refuses(torque_, "is no text; unpack it first");
+  write("plot.txt", "t,Tx\n2024-05-01 10:00:00.000,3\n");
+  refuses(torque_,
+          "plot.txt, line 2, column t: '2024-05-0110:00:00.000' is not a finite number; clock times are read by");
   write("grains.vtk", "# vtk DataFile Version 2.0\nx\nASCII\nDATASET POLYDATA\nPOINTS 1 float\n0 0 0\n");
   refuses("--bed grains.vtk --angle drum", "grains.vtk, line 1: is a VTK file of the legacy format; save it as .vtu");
   write("grains.vtu", "not xml");

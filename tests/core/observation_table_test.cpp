@@ -197,6 +197,8 @@ TEST_F(ObservationTable, RefusesAFaultWithFileLineColumnAndReason) {
       {"a,fit,repose,angle,26,1,deg,,,,,,,,\"m\"", "line 2, column material: holds a comma, a quote"},
       {"a,fit,repose,angle,26,1,deg,,,,,,,m", "line 2: has 14 fields instead of 15"},
       {"a,fit,repose,angle,26,5,1,deg,,,,,,,,m", "line 2: has 16 fields instead of 15"},
+      {"a,fit,repose,angle,136,1,deg,,,,,,,,m", "line 2, column value: angle is 136 degrees; state an angle below 90"},
+      {"a,fit,repose,angle,-26,1,deg,,,,,,,,m", "line 2, column value: angle is -26, which is surely below 0"},
       {"", "line 2: has 1 fields instead of 15"},
       {"a,fit,repose,angle,26,1,deg,,,,,,,,m\na,check,repose,angle,27,1,deg,,,,,,,,m",
        "line 3, column observable: test 'a' states angle twice (first in line 2)"},
@@ -208,6 +210,14 @@ TEST_F(ObservationTable, RefusesAFaultWithFileLineColumnAndReason) {
   for (const auto& [row, message] : faults)
     EXPECT_EQ(refusal_of_row(row).rfind(std::string("table.csv, ") + message, 0), 0u)
         << "row: " << row << "\nrefusal: " << refusal_of_row(row);
+}
+
+// A power that is nothing within its uncertainty is measured below zero every other time.
+TEST_F(ObservationTable, TakesAValueBelowZeroThatIsNoSurprise) {
+  EXPECT_EQ(refusal_of_row("a,fit,mixer,power,-0.5,0.2,W,1,0.1,,,,,,m"), "accepted");
+  EXPECT_EQ(refusal_of_row("a,fit,mixer,power,-0.9,0.2,W,1,0.1,,,,,,m")
+                .rfind("table.csv, line 2, column value: power is -0.9", 0),
+            0u);
 }
 
 // What differs is said, as spreadsheets and people change a header.
@@ -229,6 +239,9 @@ TEST_F(ObservationTable, SaysWhatDiffersInItsHeader) {
                                       {changed("role", "Role"), "has capital letters in its names"},
                                       {changed(",tilt", ""), "lacks tilt;"},
                                       {changed("fill", "filling"), "lacks fill and has 'filling';"},
+                                      {"\xFF\xFEt", "is UTF-16 text; save it as UTF-8"},
+                                      {"sep=,", "names a separator for a spreadsheet"},
+                                      {kHeader + ",,", "has columns without a name"},
                                       {kHeader + ",note", "has 'note' beside the columns of this table"},
                                       {changed("speed,fill", "fill,speed"), "has its columns in another order"}})
     EXPECT_EQ(refusal([&] { read(header + "\n"); }).rfind("table.csv, line 1: " + words, 0), 0u)

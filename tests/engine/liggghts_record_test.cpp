@@ -270,6 +270,8 @@ struct Stop {
   std::string settings, more, words;  // words: what the one line must say
 };
 
+void PrintTo(const Stop& s, std::ostream* out) { *out << s.name; }
+
 std::string stop_name(const testing::TestParamInfo<Stop>& tested) { return tested.param.name; }
 
 class RecordStops : public testing::TestWithParam<Stop> {};
@@ -336,6 +338,23 @@ INSTANTIATE_TEST_SUITE_P(
              "",
              "fix record all vielto/record every 10 file t.csv speed 1 part tray a a\n",
              "mesh a stands in part tray and again in part tray"},
+        Stop{
+            "part_given_twice", {resting(0, 0)}, "", std::string(record) + "part tray b\n", "part tray is given twice"},
+        Stop{"part_named_as_a_column",
+             {resting(0, 0)},
+             "",
+             "fix record all vielto/record every 10 file t.csv speed 1 part idle a\n",
+             "part idle has the name of a column"},
+        Stop{"part_with_a_comma",
+             {resting(0, 0)},
+             "",
+             "fix record all vielto/record every 10 file t.csv speed 1 part a,b a\n",
+             "part a,b|without commas"},
+        Stop{"half_a_step",
+             {resting(0, 0)},
+             "",
+             "fix record all vielto/record every 7.5 file t.csv speed 1 part tray a\n",
+             "Expected integer parameter"},
         Stop{"speed_in_rad_per_s",
              {resting(0, 0)},
              "",
@@ -387,6 +406,24 @@ INSTANTIATE_TEST_SUITE_P(
              std::string(record) + "maxTorque\n",
              "keyword maxTorque lacks a value"}),
     stop_name);
+
+// A rotor that nothing turns is told of at a speed, whether it never had a motion or has one of zero; a standing part
+// is not.
+TEST(RecordMotion, WarnsOfARotorThatStandsStill) {
+  const std::string words = "Warning: mesh a of part tray stands still";
+  const auto text = [](const std::string& motion, const std::string& parts) {
+    Liggghts run;
+    run.script = head(run, {resting(0, 0)}, {Material()}, 0.2) + plates(run) + motion +
+                 "fix record all vielto/record every 10 file t.csv axis 0 0 1 " + parts + "\nrun 10\n";
+    const Outcome outcome = run.start();
+    EXPECT_EQ(outcome.status, 0) << outcome.text;
+    return outcome.text;
+  };
+  EXPECT_NE(text("", "speed 2 part tray a").find(words), std::string::npos);
+  EXPECT_NE(text("fix turn all move/mesh mesh a linear 0 0 0\n", "speed 2 part tray a").find(words), std::string::npos);
+  EXPECT_EQ(text("", "speed 2 standing tray a").find(words), std::string::npos);
+  EXPECT_EQ(text("", "speed 0 part tray a").find(words), std::string::npos);
+}
 
 // On two ranks a stop that only one of them sees ends both, with its line.
 TEST(RecordStopsOnTwoRanks, OverlapOverItsLimitEndsBoth) {
