@@ -8,6 +8,7 @@ colour of the page, its words and a dot a row; a table without the column is ref
 import importlib
 import os
 import pathlib
+import re
 import subprocess
 import sys
 
@@ -20,6 +21,7 @@ if known.returncode or known.stdout.count("ii") != len(packages):
 
 sys.path[:0] = [str(ROOT), str(ROOT / "doc/_ext")]
 plot, results, again = (importlib.import_module(name) for name in ("plot", "results", "again"))
+nodes = importlib.import_module("docutils.nodes")
 
 rows = [{"n": str(n), "angle": str(30 + n), "u": "0.5", "base": base} for n in (1, 2, 4) for base in ("plain", "rough")]
 x, y = plot.Value("speed [mm/s] = 10 n"), plot.Value("angle [deg] = angle ± u")
@@ -32,6 +34,31 @@ drawn = plot.draw(series, x.label, y.label, "x", "")
 for word in ("currentColor", "speed [mm/s]", "angle [deg]", "base rough", ">40<"):
     assert word in drawn, word
 assert plot.INK not in drawn and "#000000" not in drawn, "a colour that a dark page does not show"
+
+
+def height_of(word, svg):
+    return float(re.search(rf' y="([\d.]+)"[^>]*>{re.escape(word)}<', svg)[1])
+
+
+# the legend stands above the figure's title, so above every whisker, however many names it has
+assert height_of("base rough", drawn) < height_of("angle [deg]", drawn) - 10
+many = plot.draw([(f"a name of length {k}", series[0][1]) for k in range(5)], "x", "y")
+assert len({height_of(f"a name of length {k}", many) for k in range(5)}) == 3, "two names a row"
+assert height_of("a name of length 4", many) < height_of("y", many) - 10
+
+# what is drawn stands below as numbers: a row a place, the scatter where a place has several runs
+table = plot.numbers(["x", "runs", "a", "b"], [(1, "1"), (2, "2")], [
+    ("a", [(1, (3, 3, 3)), (1, (5, 5, 5)), (2, (7, 6, 8))]), ("b", [(2, (1500, 1000, 1600))])
+], [".3g", ".3g"])  # fmt: skip
+cells = [entry.astext() for entry in table[1].findall(nodes.entry)]
+assert cells == "x runs a b 1 2 4\u00a0±\u00a01 – 2 1 7\u00a0±\u00a01 1500\u00a0[1000,\u00a01600]".split(" "), cells
+once = plot.numbers(["x", "runs", "a"], [(1, "1")], [("a", [(1, (3, 3, 3))])], [".3g"])
+assert [entry.astext() for entry in once[1].findall(nodes.entry)] == ["x", "a", "1", "3"]
+assert plot.numbers(["x", "runs", "a"], [(k, "") for k in range(41)], [("a", [])], [".3g"]) == []
+
+# a straight line through y = 1 + 2 x down to 0
+drawn = plot.draw([("y", [(k, (1 + 2 * k, 0, 0)) for k in (2, 3, 4)])], "x", "y", line=("real", 0))
+assert "a run" in drawn and "line and its u" in drawn and "real" in drawn
 
 # a line a row, of some rows only, and a band
 some = plot.Value("rough = angle (n, u) if base=rough")
