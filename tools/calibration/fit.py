@@ -8,7 +8,7 @@ Posterior  prior (uniform on the range, or normal where mean and sd are given) t
 Identified what the data have narrowed: sd over the prior's sd, of each parameter and along the axes of the posterior.
 Family     `members` equally weighted points of the posterior, by systematic resampling.
 
-Writes NAME.posterior.csv (weight, one column a -var) and, beside it, NAME.calibration.json and .md.
+Writes NAME.posterior.csv (weight, one column a -var) and, beside it, NAME.calibration.json; prints what the latter holds.
 """
 import math
 import pathlib
@@ -58,7 +58,6 @@ def work(options):
     stem = str(options.out).removesuffix(".posterior.csv")
     tables.write(options.out, *family(plan, points, weight, axes[0][1]))
     files.write_json(stem + ".calibration.json", result)
-    files.write_text(stem + ".calibration.md", page(result))
     print(page(result))
 
 
