@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The directive {again}: how a finding is made again, folded.
+"""The directive {again}: how a finding is made again, folded. A finding whose folder is named as its page ends with it unasked.
 
 The program `again` does it, in the folder of findings/ that is named as the page is, or in the one that is stated. The first
 line of comment behind its `#!` is the time that it takes, the page's
@@ -39,6 +39,14 @@ class Again(Directive):
         ]
 
 
+def end_finding(app, docname, source):
+    """A finding ends with how it is made again."""
+    room, _, name = docname.rpartition("/")
+    if room == "findings" and (ROOT / room / name / "again").is_file():
+        source[0] += "\n\n```{again}\n```\n"
+
+
 def setup(app):
     app.add_directive("again", Again)
+    app.connect("source-read", end_finding)
     return {"parallel_read_safe": True}

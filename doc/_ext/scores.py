@@ -7,6 +7,13 @@
 
 A column for each file. Shares of cases are drawn, of the first three files; a mark that no file has is left out.
 
+The directive {answers}: what diagnoses said, a column an answer: verdict, no gap, a gap without a name, and every effect that holds
+5 % in one of them. Files as in {values}:
+
+    ```{answers} against the reference
+    ./{X1,X2}/with_reference/diagnosis.json
+    ```
+
 The directive {ratios} bench/results.json bench/ratios.csv: the ratios of a bench with the meaning of each. Those with a name
 under `drawn` are drawn as how many times as fast we are, turned round where `turned` says that the ratio is one of times.
 """
@@ -73,6 +80,32 @@ class Scores(Directive):
         return [figure(svg, words), *folded("The marks as numbers", [table(head, body)])]
 
 
+def rows_of_answers(answers):
+    """Verdict, and every probability that is 5 % in one of the answers; no gap and unknown first."""
+    told = [answer["probabilities"] for answer in answers]
+    names = sorted({n for p in told for n, share in p.items() if share >= 0.05} - {"no_gap", "unknown"})
+    rows = [["answer", *(a["verdict"].replace("_", " ") for a in answers)]]
+    for name, label in [("no_gap", "no gap"), ("unknown", "no name"), *((n, n.replace("_", " ")) for n in names)]:
+        rows.append([label, *(f"{p[name]:.0%}".replace("%", "\u00a0%") if name in p else "–" for p in told)])
+    return rows
+
+
+class Answers(Directive):
+    required_arguments = 1
+    final_argument_whitespace = True
+    has_content = True
+
+    def run(self):
+        columns = files_named(" ".join(self.content))
+        answers = []
+        for _, path in columns:
+            try:
+                answers.append(files.read_json(placed(self, path), "name an answer of the repository"))
+            except (OSError, ValueError) as fault:
+                raise self.error(f"{path}: {fault!r}") from fault
+        return [table([self.arguments[0], *(label for label, _ in columns)], rows_of_answers(answers))]
+
+
 class Ratios(Directive):
     required_arguments = 2
 
@@ -96,4 +129,5 @@ class Ratios(Directive):
 def setup(app):
     app.add_directive("scores", Scores)
     app.add_directive("ratios", Ratios)
+    app.add_directive("answers", Answers)
     return {"parallel_read_safe": True}

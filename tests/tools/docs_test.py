@@ -20,7 +20,7 @@ if known.returncode or known.stdout.count("ii") != len(packages):
     sys.exit(77)
 
 sys.path[:0] = [str(ROOT), str(ROOT / "doc/_ext")]
-plot, results, again = (importlib.import_module(name) for name in ("plot", "results", "again"))
+plot, results, again, scores = (importlib.import_module(name) for name in ("plot", "results", "again", "scores"))
 nodes = importlib.import_module("docutils.nodes")
 
 rows = [{"n": str(n), "angle": str(30 + n), "u": "0.5", "base": base} for n in (1, 2, 4) for base in ("plain", "rough")]
@@ -75,6 +75,24 @@ assert results.stated_fully("max overlap_max") == ("Greatest overlap [%]", "max 
 assert results.stated_fully("power_W ± u power_W") == ("Power [W]", "power_W .1f ± u power_W .1f")
 assert results.files_named("a/{X1,X2}/b.json") == [("X1", "a/X1/b.json"), ("X2", "a/X2/b.json")]
 assert again.time_and_commands("#!/bin/bash\n# an hour\nset -euo pipefail\nrun it\n") == ("an hour", ["run it"])
+
+# answers: no gap and no name always, an effect where it holds 5 % in one of them
+told = scores.rows_of_answers([
+    {"verdict": "no_gap", "probabilities": {"no_gap": 0.9, "unknown": 0.02, "drift": 0.04, "shape": 0.01}},
+    {"verdict": "unknown", "probabilities": {"no_gap": 0.1, "unknown": 0.6, "drift": 0.3}},
+])  # fmt: skip
+assert told == [
+    ["answer", "no gap", "unknown"],
+    ["no gap", "90\u00a0%", "10\u00a0%"],
+    ["no name", "2\u00a0%", "60\u00a0%"],
+    ["drift", "4\u00a0%", "30\u00a0%"],
+], told
+
+# a finding with a program `again` ends with it; another page does not
+for page, ends in (("findings/end_walls", True), ("findings/index", False), ("guide/report", False)):
+    source = ["text"]
+    again.end_finding(None, page, source)
+    assert source[0].endswith("```{again}\n```\n") == ends, page
 
 for wrong, fault in (
     (lambda: plot.series_of(rows, x, [plot.Value("y = no_such")], None), KeyError),
