@@ -4,15 +4,21 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 #include "core/bad_input.h"
 
 namespace vielto {
 
+constexpr double kLargestLength = 100;
+
 double GeometryInput::number(const std::string& name) {
   const double value = file_.number(name);
   used_.push_back({name, file_.text(name), false});
+  // some meshes are cut into pieces of the grain's size, of which there would be too many
+  if (file_.find(name).unit == "m" && std::fabs(value) > kLargestLength)
+    refuse(name, fmt::format("over {} m", kLargestLength), "state the length in m");
   return value;
 }
 

@@ -48,6 +48,12 @@ std::string lone_interval(const TorqueRecord& r, const Signal& rotor, const Aver
       turn, r.start_step + turn * r.header.steps_per_turn, averaged[lone->index], lone->without, lone->mean);
 }
 
+// What the fill, density and drum of a mixer's header make.
+double mass_of_the_fill(const TorqueRecordHeader& h) {
+  if (h.rig != "mixer" || !h.fill || !h.bulk_density || !(h.drum_volume > 0)) return h.mass_target;
+  return *h.fill * *h.bulk_density * h.drum_volume / h.whole_drum();
+}
+
 RunQuality run_quality(const TorqueRecord& r, const AveragedTurns& turns, const MeanUncertainty& torque,
                        const ShaftCurves& curves) {
   RunQuality q;
@@ -71,6 +77,10 @@ RunQuality run_quality(const TorqueRecord& r, const AveragedTurns& turns, const 
   warn(!(std::fabs(q.mass - q.mass_target) <= kMostMassDifference * q.mass_target),
        fmt::format("the grains weigh {:.4g} kg where the fill asks for {:.4g} kg, the limit is {} %", q.mass,
                    q.mass_target, 100 * kMostMassDifference));
+  const double stated = mass_of_the_fill(r.header);
+  warn(!(std::fabs(q.mass_target - stated) <= kMostMassDifference * stated),
+       fmt::format("mass_target_kg is {:.4g}, but fill, bulk_density and drum_volume make {:.4g} kg, the limit is {} %",
+                   q.mass_target, stated, 100 * kMostMassDifference));
 
   const Signal rotor = r.rotor();
   const std::string lone = lone_interval(r, rotor, turns);

@@ -143,6 +143,13 @@ TEST_F(GeometryCommand, ThatFailsKeepsTheMeshOfBefore) {
   EXPECT_EQ(content(folder / "mesh" / "geometry.par"), before);
 }
 
+TEST_F(GeometryCommand, RefusesARigOfKilometres) {
+  for (const char* length : {"1e308", "1e5", "-101"}) {
+    expect_refusal(make(kMixer + " --set slicePaddles=0 --set drumLength=" + length), "over 100 m");
+    EXPECT_FALSE(fs::exists(folder / "mesh"));
+  }
+}
+
 TEST_F(GeometryCommand, ChecksAGoodMesh) {
   ASSERT_EQ(make(kMixer).status, 0);
   const Outcome good = check("mesh/paddle_2.stl", "--closed");

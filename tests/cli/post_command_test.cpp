@@ -275,6 +275,8 @@ TEST_F(PostCommand, ViolatedLimitsAreSaidLoudlyAndMarked) {
   warning(r, "the grains weigh 0.533 kg where the fill asks for 1.067 kg");
   r.keys = {{"mass_kg", "2.986"}};
   warning(r, "the grains weigh 2.986 kg where");
+  r.keys["mass_target_kg"] = "2.986";  // 0.15 x 825 kg/m3 x 0.0474 m3 x 4/22 is 1.0665 kg
+  warning(r, "mass_target_kg is 2.986, but fill, bulk_density and drum_volume make 1.066 kg");
 }
 
 // One row of 720 that alone moves the mean by a tenth: 0.1 x 0.75 N m x 720 = 54 N m. Half as much again as the limit

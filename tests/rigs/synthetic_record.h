@@ -46,6 +46,7 @@ struct SyntheticRecord {
 
   double rotor_mean() const { return slice_paddles() * paddle_mean + stems + shaft; }  // of the simulated domain, N m
   int slice_paddles() const { return slice > 0 ? slice : paddles; }
+  double mass() const { return fill * 825 * 0.0474 * slice_paddles() / paddles; }  // kg
 
   std::string text() const;
   // Writes FOLDER/torque.csv.
@@ -90,8 +91,8 @@ inline std::string SyntheticRecord::text() const {
       {"bulk_cohesion", "6175"},
       {"power_lever", "0.114"},
       {"drum_volume", "0.0474"},
-      {"mass_kg", "1.066"},
-      {"mass_target_kg", "1.0665"},
+      {"mass_kg", number(std::floor(1000 * mass()) / 1000)},
+      {"mass_target_kg", number(mass())},
       {"clearance", "0.001"},
       {"paddle_handing", "uniform"},
       {"paddle_angle_step_deg", number(angle_step)},

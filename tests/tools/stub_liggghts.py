@@ -81,9 +81,8 @@ else:
         material="hulled_millet",
         provisional=0,
     )
-    keys.update(
-        bulk_density=825, bulk_cohesion=6175, power_lever=0.114, drum_volume=0.0474, mass_kg=fill, mass_target_kg=fill
-    )
+    keys.update(bulk_density=825, bulk_cohesion=6175, power_lever=0.114, drum_volume=0.0474)
+    keys.update(mass_kg=fill * 825 * 0.0474, mass_target_kg=fill * 825 * 0.0474)
     keys.update(paddle_angles_deg="", clearance=0.001, paddle_handing="uniform", paddle_angle_step_deg=90)
     parts = ["paddles", "stems", "shaft", "drum"]
     names = (
