@@ -13,8 +13,8 @@
 A dot a row, and a line through the means of the dots at one x, which `:dots:` leaves out. Several columns of `y`, divided by
 `;`, are a series each, as is every value of the column `each`. A value is LABEL = [FACTOR] COLUMN, with ± COLUMN or
 (COLUMN, COLUMN) for its standard uncertainty or interval, and `if COLUMN=PATTERN` for some of the rows; a column of
-columns.csv needs neither label nor factor. `where`, and `list`, a list in JSON files, are as in {results}. Several files are
-LABEL = FILE, divided by `;`: a series each.
+columns.csv needs neither label nor factor. `NAME..` is NAME.value (NAME.low95, NAME.high95), as answers have it. `where`, and
+`list`, a list in JSON files, are as in {results}. Several files are LABEL = FILE, divided by `;`: a series each.
 `log` and `zero` name the axes that are logarithmic and that begin at 0. `:line:` LABEL = X draws the straight line through the
 dots down to X, with its standard uncertainty. With
 
@@ -54,7 +54,7 @@ class Value:
     """One `LABEL = [FACTOR] COLUMN ± COLUMN`: its label, and the number and interval of a row."""
 
     def __init__(self, what):
-        label, _, words = what.rpartition(" = ")
+        label, _, words = re.sub(r"(\S+)\.\.(?=\s|$)", r"\1.value (\1.low95, \1.high95)", what).rpartition(" = ")
         factor, self.column, self.u, self.low, self.high, self.where, self.pattern = VALUE.fullmatch(
             words.strip()
         ).groups()

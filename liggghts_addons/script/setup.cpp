@@ -204,7 +204,11 @@ void RunSetup::make_mesh(const std::string& folder) const {
       words.push_back("--set");
       words.push_back(v.stated.name + "=" + v.now);
     }
-  const int status = run_program(words);
+  int status = run_program(words);
+  if (status == -1) {  // called by its path our liggghts has it beside itself
+    words.front() = (fs::read_symlink("/proc/self/exe").parent_path() / "vielto").string();
+    status = run_program(words);
+  }
   if (status == -1) throw std::runtime_error("no program 'vielto' is found; put the folder that holds it into PATH");
   if (status != 0) throw std::runtime_error("'vielto geometry' failed; its own line stands above");
 }

@@ -101,12 +101,19 @@ TEST(MixerRefusesFolder, WithoutAName) {
   expect_refusal(mixer.folder / "run", run, {"run has no name"});
 }
 
+// Called by its path, ours takes the vielto beside itself and gets as far as the grain's friction; the stock program
+// has none.
 TEST(MixerRefusesPath, WithoutOurProgram) {
-  Mixer mixer;
-  const Outcome run =
-      mixer.shell(fmt::format("cd '{}/cases/mixer' && PATH=/usr/bin:/bin {} -log none -in in.mixer -var run '{}'",
-                              VIELTO_SOURCE_DIR, mixer.command(1, Program::ours), (mixer.folder / "run").string()));
-  expect_refusal(mixer.folder / "run", run, {"no program 'vielto' is found", "PATH"});
+  for (const Program program : {Program::ours, Program::stock}) {
+    Mixer mixer;
+    const Outcome run = mixer.shell(fmt::format(
+        "cd '{}/cases/mixer' && PATH=/usr/bin:/bin {} -log none -in in.mixer -var frictionAngle -5 -var run '{}'",
+        VIELTO_SOURCE_DIR, mixer.command(1, program), (mixer.folder / "run").string()));
+    if (program == Program::ours)
+      expect_refusal(mixer.folder / "run", run, {"frictionAngle of type 1 is -5"});
+    else
+      expect_refusal(mixer.folder / "run", run, {"no program 'vielto' is found", "PATH"});
+  }
 }
 
 TEST(MixerRefusesFolder, ThatIsThereAlready) {

@@ -69,6 +69,8 @@ assert len(places) == 6 and series == [
 drawn = plot.draw_lines(places, series, "angle", mark=("wanted", 31, 1))
 assert "rough 4" in drawn and "wanted" in drawn and plot.INK not in drawn
 assert plot.mark_of("wanted = 2 ± 0.5") == ("wanted", 2, 0.5)
+answer = plot.Value("measured = a.b..")
+assert answer.label == "measured" and answer.of({"a.b.value": "2", "a.b.low95": "1", "a.b.high95": "4"}) == (2, 1, 4)
 
 # a column that all tables share has one label, factor and format
 assert results.stated_fully("max overlap_max") == ("Greatest overlap [%]", "max 100 overlap_max .1f")
