@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // What a seal depends on, and what it does not; known effects as text; a sealed threshold read back.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <functional>
 
 #include "core/bad_input.h"
+#include "core/condition.h"
 #include "core/seal.h"
 #include "core/sha256.h"
 #include "gap/question/sealed.h"
@@ -81,6 +83,68 @@ TEST_F(GapQuestion, ProvenanceStatesTheFilesAndTheOptions) {
   EXPECT_TRUE(p["hashes"].contains("design.csv"));
   EXPECT_EQ(p["options"]["ignore"].dump(), R"(["moisture","wall"])");
   EXPECT_EQ(p["fingerprint"].get<std::string>().size(), 64u);
+}
+
+// Three rows at speeds 1, 2, 1 of walls A, A, B; each pair of rows shares an error of its own.
+ReducedTable three_rows() {
+  ReducedTable table{"t.csv", "", {}, {2, 3, 4}, {}};
+  for (int i = 0; i < 3; ++i) {
+    Observation row;
+    row.apparatus = "mixer", row.observable = "power", row.value = i, row.u = 1;
+    row.speed = i == 1 ? 2 : 1, row.wall = i == 2 ? "B" : "A";
+    table.rows.push_back(row);
+  }
+  Eigen::MatrixXd u(3, 3);
+  u << 1, 0.1, 0.2, 0.1, 1, 0.3, 0.2, 0.3, 1;
+  table.covariance = u.sparseView();
+  return table;
+}
+
+TEST(GapRows, OnlyThoseAskedForWithTheirCovariance) {
+  const ReducedTable slow = only_rows(three_rows(), {"speed=1"});
+  EXPECT_EQ(slow.lines, (std::vector<int>{2, 4}));
+  EXPECT_EQ(slow.rows[1].value, 2);
+  Eigen::Matrix2d u;
+  u << 1, 0.2, 0.2, 1;
+  EXPECT_EQ(Eigen::MatrixXd(slow.covariance), u);
+  EXPECT_EQ(only_rows(three_rows(), {"speed=1", "wall=B"}).lines, std::vector<int>{4});
+  EXPECT_EQ(only_rows(three_rows(), {"apparatus=mixer", "observable=power"}).lines.size(), 3u);
+  EXPECT_EQ(only_rows(three_rows(), {"speed=2.0000018"}).lines, std::vector<int>{3});  // within 1e-6
+  for (const char* none : {"speed=2.0000024", "speed=1.9999976", "fill=0.1", "wall=C"})
+    EXPECT_THROW(only_rows(three_rows(), {none}), BadInput) << none;
+  for (const char* bad : {"speed", "colour=red", "speed=fast"})
+    EXPECT_THROW(only_rows(three_rows(), {bad}), BadInput) << bad;
+}
+
+TEST(GapRows, JoinedTablesShareNoErrors) {
+  const ReducedTable both = joined(three_rows(), only_rows(three_rows(), {"wall=A"}));
+  EXPECT_EQ(both.lines, (std::vector<int>{2, 3, 4, 2, 3}));
+  Eigen::MatrixXd u = Eigen::MatrixXd::Zero(5, 5);
+  u.topLeftCorner(3, 3) << 1, 0.1, 0.2, 0.1, 1, 0.3, 0.2, 0.3, 1;
+  u.bottomRightCorner(2, 2) << 1, 0.1, 0.1, 1;
+  EXPECT_EQ(Eigen::MatrixXd(both.covariance), u);
+}
+
+TEST(GapRows, TheFingerprintIsOfUsAndSharedErrors) {
+  const ReducedTable table = three_rows();
+  const Eigen::MatrixXd u(table.covariance);
+  const std::string own = rows_fingerprint(table.rows, u);
+  EXPECT_EQ(own.size(), 64u);
+  for (const auto& [i, j] : {std::pair(1, 0), {2, 0}, {2, 1}}) {
+    Eigen::MatrixXd other = u;
+    other(i, j) += 0.01;
+    EXPECT_NE(rows_fingerprint(table.rows, other), own) << i << " " << j;
+    other = u;
+    other(j, i) += 0.01;  // the lower half says it all
+    EXPECT_EQ(rows_fingerprint(table.rows, other), own) << i << " " << j;
+  }
+  // nothing shared is nothing said: a table without a covariance has the same
+  EXPECT_EQ(rows_fingerprint(table.rows, Eigen::MatrixXd::Identity(3, 3)), sha256_of_text([&] {
+              std::string text;
+              for (const Observation& row : table.rows)
+                text += fmt::format("{} {} {} {:.6g}|", row.apparatus, row.observable, conditions_text(row), row.u);
+              return text;
+            }()));
 }
 
 TEST(GapKnown, TextsBecomeStrengths) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A reference state: the conditional normal distribution against its closed form, scatter from repeats, and `vielto gap
+// A reference state: the conditional normal distribution against its closed form, and `vielto gap
 // diagnose --reference` on toy laws (gap_toy.h).
 #include <gtest/gtest.h>
 
@@ -11,7 +11,6 @@
 #include "core/bad_input.h"
 #include "gap/emulator/reference.h"
 #include "gap/question/question.h"
-#include "gap/question/repeats.h"
 #include "gap/verdict/diagnosis.h"
 #include "gap_folder.h"
 #include "gap_toy.h"
@@ -145,37 +144,6 @@ TEST(GapReference, ABenchRowOfBothStatesShowsTheChangeOfTheReading) {
   EXPECT_LT(reference_probability(joint, reading), 1e-4);
 }
 
-TEST(GapRepeats, PooledScatterByHand) {
-  vielto::ReducedTable table;
-  const double values[] = {9, 10, 11, 20, 22};
-  for (int i = 0; i < 5; ++i) {
-    Observation row;
-    row.test = fmt::format("t{}", i), row.role = Role::fit, row.apparatus = "mixer", row.observable = "power";
-    row.value = values[i], row.u = 0.1, row.speed = i < 3 ? 1 : 2;
-    table.rows.push_back(row);
-    table.lines.push_back(i + 2);
-  }
-  MatrixXd u = 0.01 * MatrixXd::Identity(5, 5);
-  u(0, 1) = u(1, 0) = 0.01;
-  table.covariance = u.sparseView();
-  const Averaged mean = averaged(table);
-  ASSERT_EQ(mean.table.rows.size(), 2u);
-  EXPECT_EQ(mean.count, (std::vector<int>{3, 2}));
-  EXPECT_NEAR(mean.table.rows[0].value, std::cbrt(9.0 * 10 * 11), 1e-12);
-  EXPECT_NEAR(mean.table.covariance.coeff(0, 0), (3 * 0.01 + 2 * 0.01) / 9, 1e-15);
-  RepeatsOfObservable repeats;
-  add_repeats(table, repeats);
-  const Repeats& r = repeats.at({"mixer", "power"});
-  EXPECT_EQ(r.degrees_of_freedom, 3);
-  const double m = std::log(9.0 * 10 * 11) / 3;
-  EXPECT_NEAR(r.squares,
-              std::pow(std::log(9) - m, 2) + std::pow(std::log(10) - m, 2) + std::pow(std::log(11) - m, 2) +
-                  std::pow(std::log(22.0 / 20), 2) / 2,
-              1e-12);
-  const double a = 0.01 / 81, b = 0.01 / 100, c = 0.01 / 121, ab = 0.01 / 90;
-  EXPECT_NEAR(r.stated, (a + b + c) - (a + b + c + 2 * ab) / 3 + (0.01 / 400 + 0.01 / 484) / 2, 1e-12);
-}
-
 class GapReferenceState : public vielto_test::GapFolder {
  protected:
   void SetUp() override {
@@ -303,30 +271,6 @@ TEST_F(GapReferenceState, WithoutRepeatsItSaysWhatIsAssumedAndWhatItCosts) {
             std::string::npos)
       << out_;
   EXPECT_NE(out_.find("hides changes below"), std::string::npos) << out_;
-}
-
-// By hand: 2 and 20 degrees of freedom without any scatter leave 3/5 and 3/23 of (3 s_0)^2, s_0 = 0.1; one repeat that
-// differs by 0.8 shows (t/z)^2 0.8^2/2 - w^2 with t/z = 4.6041/2.5758 (4 degrees of freedom).
-TEST(GapRepeats, FewRepeatsExcludeLittle) {
-  std::mt19937_64 random(2);
-  TableModel model = random_model(2, true, false, random);
-  model.seed = 0.01 * model.baseline.array().square().matrix().asDiagonal().toDenseMatrix();
-  const auto sd = [&](double squares, int degrees) {
-    TableModel m = model;
-    RepeatsOfObservable repeats;
-    repeats[{"mixer", "power"}] = {squares, 0.0001, degrees};
-    const auto taken = set_scatter(m, {1, 2}, repeats);
-    EXPECT_NEAR(m.seed(0, 0), std::pow(taken[0].sd * model.baseline[0], 2), 1e-9);
-    EXPECT_NEAR(m.seed(1, 1), std::pow(taken[0].sd * model.baseline[1], 2) / 2, 1e-9);
-    return std::pair(taken[0].sd, taken[0].assumed);
-  };
-  EXPECT_NEAR(sd(0, 0).first, 0.3, 1e-12);
-  EXPECT_NEAR(sd(0, 2).first, 0.3 * std::sqrt(3.0 / 5), 1e-12);
-  EXPECT_TRUE(sd(0, 2).second);
-  EXPECT_NEAR(sd(0, 20).first, 0.3 * std::sqrt(3.0 / 23), 1e-12);
-  const auto [shown, assumed] = sd(0.32, 1);
-  EXPECT_FALSE(assumed);
-  EXPECT_NEAR(shown, std::sqrt(std::pow(4.604094871 / 2.575829304, 2) * 0.32 - 0.0001), 1e-5);
 }
 
 TEST_F(GapReferenceState, TheSealIsForThePair) {

@@ -22,6 +22,8 @@ TESTS = {
     "gap/verdict/threshold.cpp": ["gap/gap_evidence_test"],
     "gap/verdict/evidence.cpp": ["gap/gap_likelihood_test"],
     "gap/verdict/diagnosis.cpp": ["gap/gap_judgement_test"],
+    "gap/question/repeats.cpp": ["gap/gap_repeats_test"],
+    "gap/question/inputs.cpp": ["gap/gap_question_test"],
 }
 NO_FLIP = -1
 EQUIVALENT = HERE / "equivalent.csv"  # source,text,change,nth (of those alike),why
