@@ -93,6 +93,19 @@ TEST_F(Machine, PaddleMixerAsStlGivesThePaddleMixersTorque) {
   EXPECT_NEAR(std::stod(header("as_stl", "fill")), 0.15, 3e-3 * 0.15);
 }
 
+// Runs of one fill may share a bed, which is mixed as if it had been filled for the run.
+TEST_F(Machine, TakesTheBedOfAnotherRun) {
+  const std::string options = ribbon() + coarse + "-var fill 0.2 -var turns 0.2 ";
+  rig.must("first", options);
+  const std::string bed = fmt::format("-var bed '{}' ", (rig.folder / "first").string());
+  rig.must("again", options, bed);
+  EXPECT_EQ(rig.read("first/torque.csv"), rig.read("again/torque.csv"));
+  rig.must("slower", options, bed + "-var speed 0.85 ");
+  EXPECT_EQ(header("slower", "mass_kg"), header("first", "mass_kg"));
+  EXPECT_NE(rig.rig("other", options, bed + "-var seed 2 ").text.find("it was started with seed 1, not 2"),
+            std::string::npos);
+}
+
 /* Torque about the axis: rotor, drum and gravity leave nothing on the mean; work goes into what is lost and kept. Grain
    of mass m in a drum of radius R is lifted with a torque below m g R, and drum and rotor rub each other's grain with
    no more than that again times tan(phi): the weight is all that presses at one turn a second, where the drum's radius

@@ -88,3 +88,26 @@ TEST(MixerResume, RefusesARunBrokenOffBeforeItsFirstRestart) {
   const Outcome other = mixer.rig("early", four, "-var resume yes -var fill 0.2");
   EXPECT_NE(other.text.find("it was started with fill 0.15, not 0.2"), std::string::npos) << other.text;
 }
+
+// Runs of one fill may share a bed: the same record to the last digit, and at another speed the same grains in it. A bed
+// of other grain, and one of a run without grain, are refused.
+TEST(MixerBed, OfAnotherRunIsMixed) {
+  Mixer mixer;
+  mixer.must("first", four);
+  const std::string bed = fmt::format("-var bed '{}' ", (mixer.folder / "first").string());
+  mixer.must("again", four, bed);
+  EXPECT_EQ(mixer.read("first/torque.csv"), mixer.read("again/torque.csv"));
+  mixer.must("slower", four, bed + "-var speed 0.85 ", 2);
+  EXPECT_EQ(mixer.header("slower", "mass_kg"), mixer.header("first", "mass_kg"));
+  EXPECT_EQ(mixer.header("slower", "speed"), "0.85");
+  const Table slower = mixer.csv("slower/torque.csv");
+  EXPECT_NEAR(slower.at(slower.rows.size() - 1, "turn"), 0.3, 1e-8);
+  EXPECT_GT(rms(slower, "paddles_Nm", 0, slower.rows.size()), 0.01);  // the paddles met it
+  const std::string log = mixer.read("slower/log.liggghts");
+  EXPECT_EQ(log.find("filling: "), std::string::npos);
+  EXPECT_NE(mixer.rig("other", four, bed + "-var fill 0.2 ").text.find("it was started with fill 0.15, not 0.2"),
+            std::string::npos);
+  mixer.must("idle", four, "-var fill 0 ");
+  const std::string none = fmt::format("-var bed '{}' -var fill 0 ", (mixer.folder / "idle").string());
+  EXPECT_NE(mixer.rig("none", four, none).text.find("bed.restart is missing"), std::string::npos);
+}

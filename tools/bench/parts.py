@@ -143,12 +143,12 @@ def grid(folder, quick, pairs):
     """Core minutes of the 4 x 4 grid of speeds and fills in cases/mixer, 8 mm, 6 turns each, by the processor's clock.
 
     `campaign_minutes` are those of studies/grid_8mm.csv, whose runs end when their power is known, with the turns that
-    they took. The cost of a step is taken at the least and
+    they took; those of one fill share a bed. The cost of a step is taken at the least and
     the greatest fill and is linear in the fill between them; that of a turn is its steps times that."""
     speeds, fills, turns = (0.48, 0.85, 1.21, 1.58), (0.10, 0.15, 0.20, 0.25), 6
 
-    def run(fill, length):
-        name = pathlib.Path(folder, f"grid_{fill}_{length}")
+    def run(fill, length, bed="none"):
+        name = pathlib.Path(folder, f"grid_{fill}_{length}_{'new' if bed == 'none' else 'taken'}")
         words = [BIN / "liggghts", "-log", "none", "-in", "in.mixer", "-var", "run", name, "-var", "fill", fill]
         words += [
             "-var",
@@ -160,6 +160,9 @@ def grid(folder, quick, pairs):
             "-var",
             "grainDiameter",
             0.012 if quick else 0.008,
+            "-var",
+            "bed",
+            bed,
         ]
         before = resource.getrusage(resource.RUSAGE_CHILDREN)
         subprocess.run(
@@ -169,31 +172,39 @@ def grid(folder, quick, pairs):
         head = dict(
             line[2:].split("=", 1) for line in (name / "torque.csv").read_text().splitlines() if line.startswith("# ")
         )
-        return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime, int(head["steps_per_turn"])
+        seconds = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+        return seconds, int(head["steps_per_turn"]), name
 
     short, long = 0.1, 0.2 if quick else 0.4
-    step, settle = {}, {}
+    step, filled, taken = {}, {}, {}
     for fill in (fills[0], fills[-1]):
-        (few, perTurn), (many, _) = run(fill, short), run(fill, long)
+        (few, perTurn, bed), (many, _, _) = run(fill, short), run(fill, long)
         step[fill] = (many - few) / ((long - short) * perTurn)
-        settle[fill] = few - short * perTurn * step[fill]
+        filled[fill] = few - short * perTurn * step[fill]
+        taken[fill] = run(fill, short, bed)[0] - short * perTurn * step[fill]
 
     def between(values, fill):
         share = (fill - fills[0]) / (fills[-1] - fills[0])
         return values[fills[0]] * (1 - share) + values[fills[-1]] * share
 
     def minutes(runs):
-        return sum(between(settle, f) + t * perTurn / n * between(step, f) for n, f, t in runs) / 60
+        return (
+            sum(between(start, fill) + turns * perTurn / n * between(step, fill) for n, fill, turns, start in runs) / 60
+        )
 
     with open(ROOT / "findings/power_of_the_mixer/grid_8mm.runs.csv") as runs:
-        campaign = [tuple(float(row[c]) for c in ("speed", "fill", "turns_total")) for row in csv.DictReader(runs)]
+        campaign = [
+            (float(row["speed"]), float(row["fill"]), float(row["turns_total"]), taken if row["bed"] else filled)
+            for row in csv.DictReader(runs)
+        ]
     return {
         "grid_8mm_core_minutes": {
-            "minutes": minutes((n, fill, turns) for n in speeds for fill in fills),
+            "minutes": minutes((n, fill, turns, filled) for n in speeds for fill in fills),
             "campaign_minutes": minutes(campaign),
             "us_per_step": [1e6 * step[fill] for fill in step],
             "steps_per_turn": perTurn,
-            "settle_s": list(settle.values()),
+            "fill_s": list(filled.values()),
+            "take_bed_s": list(taken.values()),
             "diameter": 0.012 if quick else 0.008,
         }
     }

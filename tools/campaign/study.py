@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """A study: a table of runs, `run,rig` and one column for each -var that is not the rig's default (an empty cell is the
-default). The column `bed` names another run of the study, whose bed is sheared."""
+default). The column `bed` names another run of the study, whose bed is taken."""
 import re
 
 from tools import ROOT, tables
@@ -32,7 +32,7 @@ def read(path, rigs):
                 f"'{row['run']}' is no name for a run; use letters, digits, '.', '_' and '-', and not idle_ in front"
             )
         if row.get("bed") and row["bed"] not in names:
-            raise row.fault(f"bed {row['bed']} is no run of this study; name the run whose bed is sheared")
+            raise row.fault(f"bed {row['bed']} is no run of this study; name the run whose bed is taken")
     return [{column: cell for column, cell in row.items() if cell} for row in table]
 
 
