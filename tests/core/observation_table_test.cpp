@@ -90,6 +90,7 @@ TEST_F(ObservationTable, EveryObservableOfTheProtocolHasItsUnit) {
                                      {"mixer", "paddle_share_leaving", "1"},
                                      {"bench", "paddle_gap", "m"},
                                      {"bench", "grain_spread", "1"},
+                                     {"bench", "tensile_strength", "Pa"},
                                      {"shearbox", "shear_stress_peak", "Pa"},
                                      {"shearbox", "shear_stress_steady", "Pa"},
                                      {"shearbox", "plate_force_fluctuation", "1"},
