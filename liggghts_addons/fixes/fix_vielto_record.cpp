@@ -10,6 +10,7 @@
 #include "atom.h"
 #include "comm.h"
 #include "core/stopping_rule.h"
+#include "engine/bodies.h"
 #include "engine/law.h"
 #include "error.h"
 #include "fix_gravity.h"
@@ -274,12 +275,12 @@ double FixViEltoRecord::gravity_moment() const {
   if (!fix) return 0;
   double g[3], moment = 0;
   fix->get_gravity(g);
-  for (int i = 0; i < atom->nlocal; i++) {
+  vielto::each_mass(modify, atom, [&](double mass, const double* x) {
     double arm[3], m[3];
-    for (int d = 0; d < 3; d++) arm[d] = atom->x[i][d] - origin_[d];
+    for (int d = 0; d < 3; d++) arm[d] = x[d] - origin_[d];
     cross3(arm, g, m);
-    moment += atom->rmass[i] * dot3(m, axis_);
-  }
+    moment += mass * dot3(m, axis_);
+  });
   return moment;
 }
 
@@ -287,7 +288,7 @@ double FixViEltoRecord::potential_energy() const {
   FixGravity* fix = static_cast<FixGravity*>(modify->find_fix_style("gravity", 0));
   double g[3] = {0, 0, 0}, sum = 0;
   if (fix) fix->get_gravity(g);
-  for (int i = 0; i < atom->nlocal; i++) sum -= atom->rmass[i] * dot3(atom->x[i], g);
+  vielto::each_mass(modify, atom, [&](double mass, const double* x) { sum -= mass * dot3(x, g); });
   return total(sum);
 }
 

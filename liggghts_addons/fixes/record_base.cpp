@@ -10,6 +10,7 @@
 
 #include "atom.h"
 #include "comm.h"
+#include "engine/bodies.h"
 #include "engine/critical_time.h"
 #include "error.h"
 #include "fix_mesh_surface.h"
@@ -127,9 +128,6 @@ void FixViEltoRows::check_name(const std::string& name) {
 int FixViEltoRows::setmask() { return PRE_FORCE | END_OF_STEP; }
 
 void FixViEltoRows::init() {
-  if (modify->n_fixes_style("multisphere") > 0)
-    error->fix_error(FLERR, this,
-                     "counts masses and energies grain by grain, which is wrong for clumps (fix multisphere)");
   for (Part& part : parts_)
     for (Mesh& mesh : part.meshes) {
       mesh.fix = dynamic_cast<FixMeshSurface*>(modify->find_fix_id(mesh.id.c_str()));
@@ -158,6 +156,12 @@ void FixViEltoRows::take_up_forces() {
       atom->f[i][d] = forces_->array_atom[i][d];
       atom->torque[i][d] = forces_->array_atom[i][d + 3];
     }
+  if (auto* clumps = static_cast<FixMultisphere*>(modify->find_fix_style("multisphere", 0))) {
+    // it has added up over its bodies what was just computed
+    clumps->data().reset_forces(false);
+    clumps->comm_correct_force(true);
+    clumps->calc_force(true);
+  }
   forcesRead_ = false;
 }
 
@@ -219,15 +223,7 @@ void FixViEltoRows::post_run() {
   ended_ = false;
 }
 
-double FixViEltoRows::kinetic_energy() const {
-  double sum = 0;
-  for (int i = 0; i < atom->nlocal; i++) {
-    const double *v = atom->v[i], *w = atom->omega[i], r = atom->radius[i];
-    sum += 0.5 * atom->rmass[i] *
-           (v[0] * v[0] + v[1] * v[1] + v[2] * v[2] + 0.4 * r * r * (w[0] * w[0] + w[1] * w[1] + w[2] * w[2]));
-  }
-  return total(sum);
-}
+double FixViEltoRows::kinetic_energy() const { return total(vielto::kinetic_energy_of(modify, atom)); }
 
 std::vector<double> FixViEltoRows::overlaps() {
   const double contacts = total(tally_.contacts), sum = total(tally_.overlapSum);

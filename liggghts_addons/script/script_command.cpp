@@ -23,6 +23,7 @@
 #include "comm.h"
 #include "core/bad_input.h"
 #include "domain.h"
+#include "engine/bodies.h"
 #include "engine/critical_time.h"
 #include "engine/law.h"
 #include "error.h"
@@ -71,6 +72,8 @@ void ViEltoCommand::command(int narg, char** arg) {
     vielto::LawCommand(lmp).command(narg, arg);
   else if (what == "clump" && narg == 8)
     clump(narg, arg);
+  else if (what == "mass" && narg == 2)
+    mass(narg, arg);
   else if (what == "place" && narg == 11)
     place(narg, arg);
   else if (what == "grains" && narg > 1 && narg % 2 == 0)
@@ -82,7 +85,7 @@ void ViEltoCommand::command(int narg, char** arg) {
   else
     vielto::stop_all(lmp,
                      "vielto: unknown form of this command; use setup, error, half_period, words, repeat, include, "
-                     "property, pair_property, law, clump, place, grains or close");
+                     "property, pair_property, law, clump, mass, place, grains or close");
 }
 
 void ViEltoCommand::half_period(int, char** arg) {
@@ -137,6 +140,15 @@ void ViEltoCommand::pair_property(int, char** arg) {
   for (int i = 1; i <= atom->ntypes; i++)
     for (int j = 1; j <= atom->ntypes; j++) line += " " + (i == 2 || j == 2 ? wall : grain);
   input->one(line.c_str());
+}
+
+void ViEltoCommand::mass(int, char** arg) {
+  double mine = 0, all = 0;
+  vielto::each_mass(modify, atom, [&](double m, const double*) { mine += m; });
+  MPI_Allreduce(&mine, &all, 1, MPI_DOUBLE, MPI_SUM, world);
+  char value[64];
+  snprintf(value, sizeof value, "%.15g", all);
+  set_variable(arg[1], value);
 }
 
 void ViEltoCommand::clump(int, char** arg) {

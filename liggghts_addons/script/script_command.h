@@ -33,6 +33,8 @@
                                                and with the volume of a sphere of diameter D (m); set variable NAME to the words
                                                of particletemplate/multisphere for them (nspheres ... use_density), NAMERadius
                                                to the smallest radius (m), NAMESpheres to their number
+     vielto mass NAME                          set variable NAME to the mass of all grains, kg; a clump counts once, where
+                                               LIGGGHTS' mass(all) counts it for each of its spheres
      vielto place FILE N radii R1 R2 R3 density RHO seed S
                                                make N grains of type 1 at the first N places x_m,y_m,z_m of FILE: round(N/6) of
                                                the radii R1 and R3 each, the others R2, which is which by the seed. They are at
@@ -63,6 +65,7 @@ class ViEltoCommand : protected Pointers {
   void property(int narg, char** arg);
   void pair_property(int narg, char** arg);
   void clump(int narg, char** arg);
+  void mass(int narg, char** arg);
   void set_variable(char* name, const char* value);
   void refuse(const std::string& line);
   void stop_if(const std::string& faultOnRankZero);

@@ -132,7 +132,7 @@ TEST(MixerFilling, ComesInWithoutTouchingRotorOrDrum) {
     mixer.write(file, text.substr(0, text.find('\n', at + 1) + 1) + more);
   };
   cut("filling.in", "run 1\n", "write_dump all custom/vtk ../in.vtk id type x y z vx vy vz radius\n");
-  cut("mixer/bed.in", "include ../filling.in", "");
+  cut("mixer/bed.in", "include ${fillingFile}", "");
   cut("mixer/in.mixer", "vielto include bed.in", "");
   const Outcome outcome = run_case(mixer, mixer.read("mixer/in.mixer"), std::string("-var fill 0.25 ") + four);
   ASSERT_EQ(outcome.status, 0) << outcome.text;

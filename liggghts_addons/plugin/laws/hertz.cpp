@@ -19,6 +19,7 @@ Law describe_hertz() {
   law.normal = "hertz/watched";
   law.tangential = "history";
   law.rolling = "epsd2";
+  law.clumps = true;
   law.cohesions = {"sjkr", "sjkr2"};
   law.settings = {{"tangential_damping", "off"}, {"limitForce", "${limitForce}"}, {"maxOverlap", "${maxOverlap}"}};
   law.parameters = {{{"poissonsRatio", 0, 0.5, true, true, "1"},

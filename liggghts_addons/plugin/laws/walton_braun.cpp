@@ -23,6 +23,7 @@ Law describe_walton_braun() {
   law.id = WALTON_BRAUN;
   law.normal = "walton_braun";
   law.tangential = law.rolling = "vielto";
+  law.clumps = true;
   law.cohesions = {"adhesion"};
   for (const char* name : {"springFactor", "wallRadiusFactor", "maxOverlap", "slidingDashpot", "radiusLever",
                            "rollingDashpot", "wallRolling"})
