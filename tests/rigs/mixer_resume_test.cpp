@@ -89,8 +89,8 @@ TEST(MixerResume, RefusesARunBrokenOffBeforeItsFirstRestart) {
   EXPECT_NE(other.text.find("it was started with fill 0.15, not 0.2"), std::string::npos) << other.text;
 }
 
-// Runs of one fill may share a bed: the same record to the last digit, and at another speed the same grains in it. A bed
-// of other grain, and one of a run without grain, are refused.
+// Runs of one fill may share a bed: the same record to the last digit, and at another speed the same grains in it. A
+// bed of other grain, and one of a run without grain, are refused.
 TEST(MixerBed, OfAnotherRunIsMixed) {
   Mixer mixer;
   mixer.must("first", four);
