@@ -117,7 +117,7 @@ TEST_F(Rigs, AnOwnRigIsPlannedWithAnEffectOfItsOwn) {
   expect_refused("gap plan lib/own/plan.toml --out study2.csv", "rigs: 'hopper' is no rig; write one of mixer");
 }
 
-// wall_friction's file names the heap; a hopper that takes the heap's effects has the wall's angle changed by it.
+// An effect whose file names the heap only; a hopper that takes the heap's effects has the wall's angle changed by it.
 TEST_F(Rigs, AnOwnRigTakesTheEffectsOfAnother) {
   std::string text = kHopper;
   text.replace(text.find("title"), 0, "effects_of = \"repose\"\n");
@@ -128,7 +128,9 @@ TEST_F(Rigs, AnOwnRigTakesTheEffectsOfAnother) {
         "name = \"wall_friction\"\nstrengths = [4]\nat = [1]\n");
   fs::create_directories(folder_ / "lib/effects");
   const fs::path libraries = fs::path(VIELTO_SOURCE_DIR) / "libraries";
-  fs::copy(libraries / "effects/wall_friction.toml", folder_ / "lib/effects/wall_friction.toml");
+  std::string effect = content(libraries / "effects/wall_friction.toml");
+  effect.replace(effect.find("name = \"wall_frictionAngle\""), 0, "rigs = [\"repose\"]\n");
+  write("lib/effects/wall_friction.toml", effect);
   fs::copy(libraries / "diagnosis.toml", folder_ / "lib/diagnosis.toml");
   ASSERT_EQ(vielto("gap plan lib/own/plan.toml --rigs like.toml --out study.csv"), 0) << err_;
   EXPECT_NE(content(folder_ / "study.csv").find("hopper1_wall_friction4_s301,hopper,301,28,0.1"), std::string::npos)
