@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <map>
 
 #include "core/bad_input.h"
 #include "core/condition.h"
@@ -36,19 +37,31 @@ std::vector<std::string> contradictions(const std::vector<Observation>& rows, co
   const auto under = [](const Observation& r) {
     return fmt::format("{},{},{},{},{}", r.apparatus, r.observable, conditions_text(r), r.wall, r.material);
   };
-  std::vector<std::string> found;
+  struct Pairs {
+    double most = 0;  // times what is left to them
+    std::string worst;
+    int count = 0;
+  };
+  std::map<std::string, Pairs> places;
   for (Index i = 0; i < noise.rows(); ++i)
     for (Index j = 0; j < i; ++j) {
       const Observation &a = rows[static_cast<std::size_t>(j)], &b = rows[static_cast<std::size_t>(i)];
       if (noise(i, j) <= 0 || under(a) != under(b)) continue;
       const double sd = std::sqrt(noise(i, i) + noise(j, j) - 2 * noise(i, j) + own[i] + own[j]);
       const double apart = std::fabs(a.value - b.value);
-      if (apart > kMany * sd)
-        found.push_back(fmt::format(
-            "{} and {} share their conditions and their error, but differ by {:.3g} {}, {:.0f} times what is left to "
-            "them: no simulation explains that; check the covariance",
-            a.test, b.test, apart, a.unit, apart / sd));
+      if (!(apart > kMany * sd)) continue;
+      Pairs& here = places[under(a)];
+      ++here.count;
+      if (!(apart > here.most * sd)) continue;
+      here.most = apart / sd;
+      here.worst = fmt::format(
+          "{} and {} share their conditions and their error, but differ by {:.3g} {}, {:.0f} times what is left to "
+          "them: no simulation explains that; check the covariance",
+          a.test, b.test, apart, a.unit, here.most);
     }
+  std::vector<std::string> found;
+  for (const auto& [place, pairs] : places)
+    found.push_back(pairs.count == 1 ? pairs.worst : fmt::format("{} ({} such pairs there)", pairs.worst, pairs.count));
   return found;
 }
 

@@ -96,6 +96,18 @@ TEST_F(GapSharedErrors, RowsThatShareAllAndDifferAreAGap) {
   EXPECT_NE(out_.find("There is a gap"), std::string::npos) << out_;
 }
 
+// Of many rows with one error the pair farthest apart is named, 56.75 and 65.96 deg, not each of the ten.
+TEST_F(GapSharedErrors, ManyContradictionsAreOneLine) {
+  std::vector<Observation> all = rows({"B00", "B45-1", "B45-2", "B45-3", "B45-4", "B45-5"});
+  for (Observation& row : all) row.role = vielto::Role::fit;
+  write(all, {1, 2, 3, 4, 5}, 1);
+  diagnosed();
+  const std::string words = "note: B45-1 and B45-5 share their conditions and their error, but differ by 9.21 deg";
+  EXPECT_NE(out_.find(words), std::string::npos) << out_;
+  EXPECT_NE(out_.find("(10 such pairs there)"), std::string::npos) << out_;
+  EXPECT_EQ(out_.find("share their conditions"), out_.rfind("share their conditions")) << out_;
+}
+
 // One mean stated three times is one mean. What is left to a row of its own, 1e-3 u, changes the variance of their mean
 // by less than 1e-6, and probabilities by chi2 times that.
 TEST_F(GapSharedErrors, OneMeanStatedTwiceCountsOnce) {
