@@ -53,7 +53,7 @@ std::map<std::string, std::string> Rig::settings(const Effect& effect, double st
     // LIGGGHTS takes any -var in silence: one that the rig does not read would be no effect at all.
     if (known.count(change.name) == 0)
       throw BadInput(effect.path, 0, change.name, fmt::format("is no parameter of {}", script),
-                     "give the rig this switch first (gap/README.md)");
+                     "give the rig this switch first (doc/develop/add_rig.md)");
     if (change.needs_base() && from.count(change.name) == 0)
       throw BadInput(effect.path, 0, change.name, fmt::format("has no baseline value in the files of {}", name),
                      "state it in the rig's parameter file");
