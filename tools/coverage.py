@@ -5,7 +5,6 @@ Builds the preset `coverage`, runs the tests of the labels given, and counts. Wi
 runs. Headers count where they are compiled in, tests themselves not."""
 import argparse
 import collections
-import os
 import pathlib
 import subprocess
 
@@ -45,22 +44,35 @@ def work(options):
 def tracefile():
     """What lcov gathers from all programs' counts."""
     path = FOLDER / "coverage.info"
+    # it warns of itself, of two hundred subroutines
     command = ["lcov", "--quiet", "--capture", "--directory", FOLDER, "--base-directory", ROOT, "--no-external"]
-    subprocess.run([*command, "--output-file", path], check=True, env=dict(os.environ, LC_ALL="C"))
+    subprocess.run([*command, "--output-file", path], check=True, stderr=subprocess.DEVNULL)
     return path
 
 
 def count(path):
-    """{folder: [lines, lines run, functions, functions run]} of our own files in a tracefile."""
-    counts = collections.defaultdict(lambda: [0, 0, 0, 0])
-    place = {"LF": 0, "LH": 1, "FNF": 2, "FNH": 3}
-    folder = None
-    for line in path.read_text().splitlines():
-        key, _, value = line.partition(":")
+    """{folder: [lines, lines run, functions, functions run]} of our own files in a tracefile. A header has a record of each
+    program that it was compiled into, a template a function of each of its types: run is what ran in one of them."""
+    lines, functions = collections.defaultdict(bool), collections.defaultdict(bool)
+    source, begins = None, {}
+    for text in path.read_text().splitlines():
+        key, _, value = text.partition(":")
+        first, _, second = value.partition(",")
         if key == "SF":
-            folder = folder_of(pathlib.Path(value))
-        elif key in place and folder:
-            counts[folder][place[key]] += int(value)
+            source, begins = value, {}
+        elif key == "DA":
+            lines[source, int(first)] |= int(second.split(",")[0]) > 0
+        elif key == "FN":
+            begins[second] = int(first)
+        elif key == "FNDA":
+            functions[source, begins[second]] |= int(first) > 0
+    counts = collections.defaultdict(lambda: [0, 0, 0, 0])
+    for at, runs in ((0, lines), (2, functions)):
+        for (name, _), run in runs.items():
+            folder = folder_of(pathlib.Path(name))
+            if folder:
+                counts[folder][at] += 1
+                counts[folder][at + 1] += run
     if not counts:
         raise BadInput(f"{path}: holds no file of ours; run tests first")
     return dict(counts)

@@ -11,8 +11,11 @@ from tools import coverage  # noqa: E402
 from tools.errors import BadInput  # noqa: E402
 
 
-def record(source, functions, called, lines, run):
-    return f"SF:{source}\nFNF:{functions}\nFNH:{called}\nDA:1,5\nLF:{lines}\nLH:{run}\nend_of_record\n"
+def record(source, lines, functions):
+    """lines {number: times}, functions {(line, name): times}."""
+    text = f"SF:{source}\n" + "".join(f"FN:{line},{name}\n" for line, name in functions)
+    text += "".join(f"FNDA:{times},{name}\n" for (_, name), times in functions.items())
+    return text + "".join(f"DA:{number},{times}\n" for number, times in lines.items()) + "end_of_record\n"
 
 
 class Coverage(unittest.TestCase):
@@ -23,17 +26,21 @@ class Coverage(unittest.TestCase):
             return coverage.count(path)
 
     def test_counts_by_folder(self):
-        text = "TN:\n" + record(ROOT / "postproc/core/csv.cpp", 4, 3, 100, 90)
-        text += record(ROOT / "postproc/core/csv.h", 1, 1, 10, 10) + record(ROOT / "vielto/main.cpp", 2, 1, 50, 0)
-        text += record(ROOT / "tests/core/csv_test.cpp", 9, 9, 900, 900) + record(
-            "/usr/include/fmt/core.h", 9, 0, 99, 0
+        # a header of two programs, each of which runs one of its lines and one of its template's types
+        header = ROOT / "postproc/core/csv.h"
+        text = "TN:\n" + record(header, {1: 5, 2: 0, 3: 0}, {(1, "f<int>"): 5, (1, "f<double>"): 0, (3, "g"): 0})
+        text += record(header, {1: 0, 2: 7, 3: 0}, {(1, "f<char>"): 0})
+        text += record(ROOT / "postproc/core/csv.cpp", {1: 1}, {(1, "h"): 1}) + record(
+            ROOT / "vielto/main.cpp", {9: 0}, {}
         )
-        self.assertEqual(self.count(text), {"postproc/core": [110, 100, 5, 4], "vielto": [50, 0, 2, 1]})
+        text += record(ROOT / "tests/core/csv_test.cpp", {1: 1}, {(1, "t"): 1})
+        text += record("/usr/include/fmt/core.h", {1: 1}, {})
+        self.assertEqual(self.count(text), {"postproc/core": [4, 3, 3, 2], "vielto": [1, 0, 0, 0]})
         self.assertEqual(coverage.row("vielto", [50, 5, 2, 1]).split(), "vielto 50 5 10.0 2 1 50.0".split())
 
     def test_nothing_was_run(self):
         with self.assertRaises(BadInput):
-            self.count("TN:\n" + record("/usr/include/fmt/core.h", 9, 0, 99, 0))
+            self.count("TN:\n" + record("/usr/include/fmt/core.h", {1: 0}, {}))
 
 
 if __name__ == "__main__":
