@@ -24,6 +24,9 @@ using namespace LAMMPS_NS;
 
 namespace {
 
+// 1/s; mixers turn at 0.5 to 3, and a speed in 1/min is 30 to 200
+const double kFastest = 10;
+
 double dot3(const double* a, const double* b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 void cross3(const double* a, const double* b, double* c) {
@@ -202,8 +205,7 @@ void FixViEltoRecord::check_motion(const Part& part, const Mesh& mesh) const {
              "Warning: mesh %s of part %s stands still, but its torque counts as the rotor's; write 'standing %s ...' "
              "for what does not turn\n",
              mesh.id.c_str(), part.name.c_str(), part.name.c_str());
-    for (FILE* to : {screen, logfile})
-      if (to && comm->me == 0) fprintf(to, "%s", line);
+    say(line);
     return;
   }
   if (!part.stands && most[2] <= 1e-3 * most[1]) return;
@@ -222,11 +224,22 @@ void FixViEltoRecord::check_motion(const Part& part, const Mesh& mesh) const {
   vielto::stop_all(lmp, line);
 }
 
-void FixViEltoRecord::add_step() {
-  if (!motionChecked_)
-    for (const Part& part : parts_)
-      for (const Mesh& mesh : part.meshes) check_motion(part, mesh);
+void FixViEltoRecord::say(const char* line) const {
+  for (FILE* to : {screen, logfile})
+    if (to && comm->me == 0) fprintf(to, "%s", line);
+}
+
+void FixViEltoRecord::check_motions() {
+  char line[100];
+  snprintf(line, sizeof line, "Warning: speed is %.6g 1/s; is that 1/min? Speeds are in 1/s\n", speed_);
+  if (speed_ > kFastest) say(line);
+  for (const Part& part : parts_)
+    for (const Mesh& mesh : part.meshes) check_motion(part, mesh);
   motionChecked_ = true;
+}
+
+void FixViEltoRecord::add_step() {
+  if (!motionChecked_) check_motions();
   double rotor = 0;
   for (Part& part : parts_) {
     add_force(part);

@@ -67,6 +67,8 @@ class FixViEltoRecord : public FixViEltoRows {
   int read_energy(const std::string& value);
   double gravity_moment() const;
   double potential_energy() const;
+  void say(const char* line) const;
+  void check_motions();
   void check_motion(const Part&, const Mesh&) const;
   void check_torque(const Part&, double torque) const;
   std::string what_is_known() const;

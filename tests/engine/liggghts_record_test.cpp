@@ -423,6 +423,9 @@ TEST(RecordMotion, WarnsOfARotorThatStandsStill) {
   EXPECT_NE(text("fix turn all move/mesh mesh a linear 0 0 0\n", "speed 2 part tray a").find(words), std::string::npos);
   EXPECT_EQ(text("", "speed 2 standing tray a").find(words), std::string::npos);
   EXPECT_EQ(text("", "speed 0 part tray a").find(words), std::string::npos);
+  // 48 1/min, given as such
+  EXPECT_NE(text("", "speed 48 standing tray a").find("Warning: speed is 48 1/s; is that 1/min?"), std::string::npos);
+  EXPECT_EQ(text("", "speed 9 standing tray a").find("1/min"), std::string::npos);
 }
 
 // On two ranks a stop that only one of them sees ends both, with its line.
