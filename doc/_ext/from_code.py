@@ -7,6 +7,7 @@
     {parameters} cases/mixer/mixer.par      the lines of a parameter file or card: name, value, unit, (range,) u, source
     {effects} libraries/effects             one row an effect file
     {observables} cases/rigs.toml           one row an observable of the table of rigs
+    {csv} records.csv                       a CSV table beside the page, Markdown in its cells, its first line the head
     {rig-parameters} cases/rigs.toml        a section a rig of the table: its title and its own parameter file
 """
 import os
@@ -18,6 +19,7 @@ import tomllib
 from docutils import nodes
 from docutils.parsers.rst import Directive
 from docutils.statemachine import StringList
+from sphinx.directives.patches import CSVTable
 
 from results import table
 
@@ -36,6 +38,16 @@ class FromFile(Directive):
             raise self.error(f"{self.arguments[0]}: is not in the repository")
         self.state.document.settings.env.note_dependency(str(path))
         return path
+
+
+class CsvFile(CSVTable):
+    """A table with words in its cells."""
+
+    required_arguments = 1
+
+    def run(self):
+        self.options |= {"file": self.arguments.pop(), "header-rows": 1}
+        return super().run()
 
 
 class Parameters(FromFile):
@@ -172,6 +184,7 @@ class ProgramPage(FromProgram):
 
 
 def setup(app):
+    app.add_directive("csv", CsvFile)
     app.add_directive("parameters", Parameters)
     app.add_directive("effects", Effects)
     app.add_directive("observables", Observables)

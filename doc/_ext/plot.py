@@ -12,7 +12,7 @@
 
 A dot a row, and a line through the means of the dots at one x, which `:dots:` leaves out. Several columns of `y`, divided by
 `;`, are a series each, as is every value of the column `each`. A value is LABEL = [FACTOR] COLUMN, with ± COLUMN or
-(COLUMN, COLUMN) for its standard uncertainty or interval, and `if COLUMN=PATTERN` for some of the rows; a column of
+(COLUMN, COLUMN) for its standard uncertainty or interval (± alone: the u that {results} would take), and `if COLUMN=PATTERN` for some of the rows; a column of
 columns.csv needs neither label nor factor. `NAME..` is NAME.value (NAME.low95, NAME.high95), as answers have it. `where`, and
 `list`, a list in JSON files, are as in {results}. Several files are LABEL = FILE, divided by `;`: a series each.
 `log` and `zero` name the axes that are logarithmic and that begin at 0. `:line:` LABEL = X draws the straight line through the
@@ -34,7 +34,7 @@ import statistics
 from docutils import nodes
 from docutils.parsers.rst import directives
 from from_code import FromFile
-from results import ROOT, files_named, folded, known_columns, matching, placed, rows_of, table
+from results import ROOT, files_named, folded, known_columns, matching, own_u, placed, rows_of, table
 from tools import files, pictures, straight_line
 
 INK = "#010203"  # stands for the page's own colour
@@ -47,7 +47,7 @@ LOOK = {
     "font.size": 11,
     **dict.fromkeys(("text.color", "axes.labelcolor", "axes.edgecolor", "xtick.color", "ytick.color"), INK),
 }
-VALUE = re.compile(r"(?:([-+.\deE]+) )?(.+?)(?: ± (\S+)| \((\S+), (\S+)\))?(?: if (\w+)=(\S+))?")
+VALUE = re.compile(r"(?:([-+.\deE]+) )?(.+?)(?:( ±)(?: (?!if )(\S+))?| \((\S+), (\S+)\))?(?: if (\w+)=(\S+))?")
 
 
 class Value:
@@ -55,7 +55,7 @@ class Value:
 
     def __init__(self, what):
         label, _, words = re.sub(r"(\S+)\.\.(?=\s|$)", r"\1.value (\1.low95, \1.high95)", what).rpartition(" = ")
-        factor, self.column, self.u, self.low, self.high, self.where, self.pattern = VALUE.fullmatch(
+        factor, self.column, self.has_u, self.u, self.low, self.high, self.where, self.pattern = VALUE.fullmatch(
             words.strip()
         ).groups()
         known = known_columns().get(self.column)
@@ -70,8 +70,8 @@ class Value:
         if not row[self.column] or (self.where and not re.fullmatch(self.pattern, row.get(self.where, ""))):
             return None
         value = self.factor * float(row[self.column])
-        if self.u:
-            u = self.factor * float(row[self.u])
+        if self.has_u:
+            u = self.factor * float(row[self.u or own_u(self.column, row)])
             return value, value - u, value + u
         if self.low:
             return value, self.factor * float(row[self.low]), self.factor * float(row[self.high])

@@ -7,19 +7,22 @@
     :show: Grain [mm] = 1000 grainDiameter .3g; Runs = n; Power [W] = power_W .1f; scatter = sd power_W .1f
     ```
 
-A column that stands in columns.csv needs neither label, factor nor format: `speed; max overlap_max; power_W ± power_u_W`.
+A column that stands in columns.csv needs neither label, factor nor format: `speed; max overlap_max; power_W ± power_u_W`;
+another has its own name as its label.
 Rows whose column matches every `where` (a regular expression for the whole cell; several are divided by `;`) are put
 together where their cells of `by` are the same, in the order of their first row or of the numbers of a column `order`; without
 `by` each row stands alone. A
 column is shown as `LABEL = [mean|sd|u|min|max|n] [FACTOR] COLUMN [FORMAT]`: the mean of the group unless told otherwise,
-u the standard deviation over the root of the number of rows; a column of words as it is. A cell may hold two of them,
-WHAT ± WHAT. Paths start in the folder of findings/ that is named as the page is, or at the repository's root. Of a JSON file
+u the standard deviation over the root of the number of rows; a column of words as it is.
+A cell may hold two of them, WHAT ± WHAT; `WHAT ±` has the uncertainty of its own column, which the table calls like it
+(`own_u`).
+Paths start in the folder of findings/ that is named as the page is, or at the repository's root. Of a JSON file
 the list named behind its path is taken, `a.b` for the
 keys of an object in it. With
 
     :across: speed 1/s = relative_gap +.0%
 
-every value of that column, with the unit behind it, is a further column that shows this. `:folded: TITLE` folds the table.
+every value of that column, with the unit behind it, is a further column that shows this. `:folded: TITLE` folds the table, without a title as "The numbers".
 
 The directive {values}: the same from JSON files, a row for each template and a column for each file (LABEL = PATH).
 
@@ -44,6 +47,9 @@ from docutils.parsers.rst import Directive, directives
 from tools import files, tables
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
+
+
+FORMAT = re.compile(r"\+?\.\d+[a-z%]")
 
 
 def spread(values):
@@ -80,21 +86,32 @@ def column_of(words):
     return words.split()[-1]
 
 
+def own_u(column, row):
+    """The column of the standard uncertainty of a column: `power_u_W` of `power_W`, `u_a` of `value_a`, `x_u`, `u_x` or `u`."""
+    stem, _, unit = column.rpartition("_")
+    for name in (f"{stem}_u_{unit}", f"{column}_u", f"u_{column}", column.replace("value", "u"), f"u_{unit}", "u"):
+        if name in row and name != column:
+            return name
+    raise KeyError(f"u of {column}")
+
+
 def stated_fully(what):
-    """`LABEL = WHAT`; of a column in columns.csv with its own label, factor and format."""
+    """`LABEL = WHAT`; without a label that of columns.csv, with its factor and format, or the column's name."""
     label, _, words = what.strip().rpartition(" = ")
     if label:
         return label, words
-    parts = words.split(" ± ")
+    own = words.endswith(" ±")
+    parts = words.removesuffix(" ±").split(" ± ")
     known = known_columns().get(column_of(parts[0]))
     if not known:
-        raise ValueError(f"'{words}' has no label and is not in columns.csv")
+        *_, column = (word for word in parts[0].split() if not FORMAT.fullmatch(word))
+        return column.replace("_", " ").capitalize(), words
 
     def full(part):
         *statistic, column = part.split()
         return " ".join(filter(None, (*statistic, known["factor"], column, known["format"])))
 
-    return known["label"], "n" if words == "n" else " ± ".join(map(full, parts))
+    return known["label"], "n" if words == "n" else " ± ".join(map(full, parts)) + " ±" * own
 
 
 def rows_of(path, key=None):
@@ -126,6 +143,11 @@ def groups(rows, by):
 
 def shown(rows, what):
     """One cell: `what` as the directive's `show` has it behind the label."""
+    if what.endswith(" ±"):
+        middle = what.removesuffix(" ±")
+        column = next(word for word in middle.split() if word in rows[0])
+        u = " ".join(own_u(column, rows[0]) if word == column else word.lstrip("+") for word in middle.split())
+        what = f"{middle} ± {u}"
     if " ± " in what:
         return "\u00a0±\u00a0".join(shown(rows, part) for part in what.split(" ± "))
     words = what.split()
@@ -134,7 +156,7 @@ def shown(rows, what):
     named = words[0] in STATISTICS and len(words) > 1 and not words[1].startswith(".")  # else a column of that name
     statistic = STATISTICS[words.pop(0)] if named else statistics.fmean
     factor = float(words.pop(0)) if re.fullmatch(r"[-+.\de]+", words[0]) else 1.0
-    form = words.pop() if re.fullmatch(r"\+?\.\d+[a-z%]", words[-1]) else ".3g"
+    form = words.pop() if FORMAT.fullmatch(words[-1]) else ".3g"
     column = " ".join(words)
     cells = [row[column] for row in rows if row[column] != ""]
     try:
@@ -232,7 +254,7 @@ class Results(Directive):
         "where": directives.unchanged,
         "by": directives.unchanged,
         "show": directives.unchanged_required,
-        "folded": directives.unchanged_required,
+        "folded": lambda title: title or "The numbers",
     }
 
     def run(self):

@@ -75,6 +75,13 @@ assert answer.label == "measured" and answer.of({"a.b.value": "2", "a.b.low95": 
 # a column that all tables share has one label, factor and format
 assert results.stated_fully("max overlap_max") == ("Greatest overlap [%]", "max 100 overlap_max .1f")
 assert results.stated_fully("power_W ± u power_W") == ("Power [W]", "power_W .1f ± u power_W .1f")
+assert results.stated_fully("worm_gear .2f") == ("Worm gear", "worm_gear .2f")
+assert results.stated_fully("max power_W ±") == ("Power [W]", "max power_W .1f ±")
+named = {"power_W": "1", "power_u_W": "2", "change": "-0.02", "u_change": "0.01", "value_a": "3", "u_a": "4"}
+assert [results.own_u(column, named) for column in ("power_W", "change", "value_a")] == ["power_u_W", "u_change", "u_a"]
+assert results.shown([named], "100 change +.0f ±") == "−2\u00a0±\u00a01"
+value = plot.Value("power [W] = power_W ± if change=-.*")
+assert value.of(named) == (1, -1, 3) and value.of({**named, "change": "1"}) is None
 assert results.files_named("a/{X1,X2}/b.json") == [("X1", "a/X1/b.json"), ("X2", "a/X2/b.json")]
 assert again.time_and_commands("#!/bin/bash\n# an hour\nset -euo pipefail\nrun it\n") == ("an hour", ["run it"])
 
@@ -99,7 +106,8 @@ for page, ends in (("findings/end_walls", True), ("findings/index", False), ("gu
 for wrong, fault in (
     (lambda: plot.series_of(rows, x, [plot.Value("y = no_such")], None), KeyError),
     (lambda: plot.Value("no_such"), ValueError),
-    (lambda: results.stated_fully("no_such"), ValueError),
+    (lambda: results.shown(rows, results.stated_fully("no_such")[1]), KeyError),
+    (lambda: results.own_u("power_W", {"power_W": "1"}), KeyError),
     (lambda: again.time_and_commands("#!/bin/bash\nrun it\n"), ValueError),
 ):
     try:
