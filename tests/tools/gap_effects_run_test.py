@@ -10,6 +10,7 @@ import pathlib
 import subprocess
 import sys
 import tempfile
+import tomllib
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 BIN = pathlib.Path(sys.argv[1]).resolve()
@@ -91,7 +92,9 @@ with tempfile.TemporaryDirectory(prefix="vielto-effects-") as name:
     acting = {
         path.stem
         for path in (ROOT / "libraries/effects").glob("*.toml")
-        if any("mixer" in line for line in path.read_text().splitlines() if line.startswith("rigs"))
+        # a variable that names no rigs acts on all
+        for variable in tomllib.loads(path.read_text()).get("apply", {}).get("var", [])
+        if "mixer" in variable.get("rigs", ["mixer"])
     }
     assert acting == set(STRENGTHS), acting ^ set(STRENGTHS)  # an effect that is added is tested too
     (folder / "library").mkdir()
