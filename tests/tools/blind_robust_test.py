@@ -69,14 +69,17 @@ with tempfile.TemporaryDirectory(prefix="vielto-robust-") as name:
 
     # A gap asks for the next test, whose candidates lie beside the settings: no change of the prior may lose them. Another
     # value of a row that shares errors is refused by its covariance, which is an answer too.
-    with open(folder / "b.csv", newline="", encoding="utf-8") as file:
-        table = list(csv.DictReader(file))
-    for row in table:
-        row["value"] = f"{float(row['value']) * 1.6:.12g}"
-    with open(folder / "gap.csv", "w", newline="", encoding="utf-8") as file:
-        writer = csv.DictWriter(file, table[0], lineterminator="\n")
-        writer.writeheader()
-        writer.writerows(table)
+    def with_values(factor, path):
+        with open(folder / "b.csv", newline="", encoding="utf-8") as file:
+            table = list(csv.DictReader(file))
+        for row in table:
+            row["value"] = f"{float(row['value']) * factor:.12g}"
+        with open(path, "w", newline="", encoding="utf-8") as file:
+            writer = csv.DictWriter(file, table[0], lineterminator="\n")
+            writer.writeheader()
+            writer.writerows(table)
+
+    with_values(1.3, folder / "gap.csv")
     done = robust(folder / "gap.csv")
     assert done.returncode == 0, done.stderr
     with open(folder / "robust.csv", encoding="utf-8") as file:
@@ -88,3 +91,9 @@ with tempfile.TemporaryDirectory(prefix="vielto-robust-") as name:
     (folder / "empty.csv").write_text((folder / "b.csv").read_text().replace(",fit,", ",check,"))
     bad = robust(folder / "empty.csv")
     assert bad.returncode == 2 and "holds no row of role fit" in bad.stderr, bad
+
+    # a table that has no answer as it stands has none when it is changed: slopes over 90 degrees
+    with_values(1.6, folder / "steep.csv")
+    bad = robust(folder / "steep.csv")
+    assert bad.returncode == 2 and "steep.csv" in bad.stderr and "90" in bad.stderr, bad
+    assert "Traceback" not in bad.stderr and len(bad.stderr.splitlines()) == 1, bad

@@ -36,7 +36,12 @@ def work(options):
         raise BadInput(f"{options.table}: holds no row of role fit; a diagnosis rests on fit rows")
     with tempfile.TemporaryDirectory(prefix="vielto-robust-") as name:
         case = Case(options, table, pathlib.Path(name))
-        answers = [{"change": change, **case.answer(**how)} for change, how in changes(case, table)]
+        answers = []
+        for change, how in changes(case, table):
+            answers.append({"change": change, **case.answer(**how)})
+            if answers[0]["verdict"] == "refused":
+                said = answers[0]["said"].removeprefix("vielto: ")
+                raise BadInput(said.replace(str(case.folder / "table.csv"), str(options.table)))
     tables.write(options.out, COLUMNS, answers)
     first = answers[0]
     same = sum((a["verdict"], a.get("named")) == (first["verdict"], first.get("named")) for a in answers[1:])
