@@ -7,7 +7,27 @@
 
 namespace vielto {
 
-std::optional<LoneValue> lone_value(const std::vector<double>& signal, double share) {
+namespace {
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+// Of a value from the median of a signal, in its robust standard deviations; 0 where most values are one and the same.
+double deviations(const std::vector<double>& signal, double value) {
+  const double centre = median(signal);
+  std::vector<double> distances;
+  distances.reserve(signal.size());
+  for (const double x : signal) distances.push_back(std::fabs(x - centre));
+  const double spread = 1.4826 * median(std::move(distances));
+  return spread > 0 ? std::fabs(value - centre) / spread : 0;
+}
+
+}  // namespace
+
+std::optional<LoneValue> lone_value(const std::vector<double>& signal) {
   if (signal.size() < 2) return std::nullopt;
   const auto n = static_cast<double>(signal.size());
   LoneValue lone;
@@ -17,8 +37,10 @@ std::optional<LoneValue> lone_value(const std::vector<double>& signal, double sh
   });
   lone.index = static_cast<std::size_t>(farthest - signal.begin());
   lone.without = (lone.mean * n - *farthest) / (n - 1);
-  if (!(std::fabs(lone.mean - lone.without) > share * std::fabs(lone.without))) return std::nullopt;
-  return lone;
+  const double moved = std::fabs(lone.mean - lone.without), whole = std::fabs(lone.without);
+  const bool named = moved > kMostLoneShare * whole ||
+                     (moved > kMostFarShare * whole && deviations(signal, *farthest) > kFarDeviations);
+  return named ? std::optional(lone) : std::nullopt;
 }
 
 }  // namespace vielto

@@ -43,8 +43,7 @@ std::string lone_interval(const TorqueRecord& r, const Signal& rotor, const Aver
   const double turn = r.first_turn + (turns.first + static_cast<double>(lone->index) / turns.phases) * turns.turns;
   return fmt::format(
       "the torque near turn {:.2f} (step {:.0f}), {:.4g} N m, alone moves the mean torque from {:.4g} to {:.4g} N m: "
-      "look "
-      "at these rows",
+      "look at these rows",
       turn, r.start_step + turn * r.header.steps_per_turn, averaged[lone->index], lone->without, lone->mean);
 }
 

@@ -11,10 +11,9 @@
 // P is proportional to the assumed bulk density: kScaleUncertainty is common to every run of a material and not in u.
 //
 // Quality limits of every reported power: dt/t_c <= 1/20, mean overlap < 0.5 % and maximum < 5 % of the diameter over
-// the averaged turns, no lost grain, the mass asked for within 2 %, no single interval that moves the mean by over 5 %;
-// where recorded, work = dissipation + change of energy within 1 %, and the torques
-// of rotor, drum and gravity balance within three standard uncertainties. A violated one marks the power (warnings), it
-// does not hide it.
+// the averaged turns, no lost grain, the mass asked for within 2 %, no single interval that moves the mean
+// (lone_value.h); where recorded, work = dissipation + change of energy within 1 %, and the torques of rotor, drum and
+// gravity balance within three standard uncertainties. A violated one marks the power (warnings), it does not hide it.
 //
 // Errors: BadInput if a record has no steady part of the turns asked for (saying how many more), if the idling record
 // is not one (fill 0) or ran at another speed (over 0.1 %), if the idling torque or the mean torque is not positive.

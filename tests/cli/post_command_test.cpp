@@ -279,20 +279,21 @@ TEST_F(PostCommand, ViolatedLimitsAreSaidLoudlyAndMarked) {
   warning(r, "mass_target_kg is 2.986, but fill, bulk_density and drum_volume make 1.066 kg");
 }
 
-// One row of 720 that alone moves the mean by a tenth: 0.1 x 0.75 N m x 720 = 54 N m. Half as much again as the limit
-// says so, half of it does not.
+// One row of 720 that alone moves the mean by a tenth: 0.1 x 0.75 N m x 720 = 54 N m. Beside noise of 0.02 N m every
+// such row lies far off, so that a hundredth is the limit.
 TEST_F(PostCommand, ALoneIntervalThatMovesTheMeanIsNamed) {
   quiet_.energy = quiet_.gravity = false;
   const double rotor = quiet_.rotor_mean();
-  for (const double share : {0.025, 0.1}) {
+  for (const double share : {0.006, 0.015, 0.1}) {
     SyntheticRecord r = quiet_;
+    r.noise = 0.02;
     r.change = [&](int row, std::map<std::string, double>& values) {
       if (row == 396) values["stems_Nm"] += share * rotor * 720;  // the middle of turn 5
     };
     r.write(folder_ / "run");
     ASSERT_EQ(post("run --turns 10"), 0) << err_;
     const bool named = err_.find("the torque near turn 5.50") != std::string::npos;
-    EXPECT_EQ(named, share > 0.05) << share << err_;
+    EXPECT_EQ(named, share > 0.01) << share << err_;
   }
 }
 
