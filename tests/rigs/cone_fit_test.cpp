@@ -94,6 +94,23 @@ TEST(ConeFit, MeasuresAHeapAboutItsOwnSummit) {
   EXPECT_FALSE(cone_fit(heap(Cone(), 1)).about_summit);
 }
 
+// A cone over 24 azimuths is off itself by its grains alone. Two that stand apart by their height are measured about
+// the middle between them: no slope of theirs.
+TEST(ConeFit, WarnsOfWhatIsNoCone) {
+  const Heap one = heap(Cone(), 1);
+  EXPECT_TRUE(cone_fit(one).warnings.empty());
+  EXPECT_LT(cone_fit(one).off_cone, one.header.grain_diameter);
+  Cone left, right;
+  left.off_axis = -20;
+  right.off_axis = 20;
+  Heap two = heap(left, 1);
+  const Heap other = heap(right, 2);
+  two.grains.insert(two.grains.end(), other.grains.begin(), other.grains.end());
+  const ConeFit fit = cone_fit(two);
+  ASSERT_EQ(fit.warnings.size(), 1u) << fit.off_cone;
+  EXPECT_NE(fit.warnings[0].find("off a cone"), std::string::npos);
+}
+
 TEST(ConeFit, ShowsAnglesThatDifferOverTheAzimuth) {
   Cone cone;
   cone.ridge = 6;

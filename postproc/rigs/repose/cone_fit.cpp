@@ -92,6 +92,13 @@ ConeFit cone_fit(const Heap& heap) {
   const RadialLine line = line_through(all);
   result.intercept = line.intercept;
   result.slope = line.slope;
+  double squares = 0;
+  for (const SurfacePoint& p : all) squares += std::pow(p.z - (line.intercept - line.slope * p.r), 2);
+  result.off_cone = std::sqrt(squares / static_cast<double>(all.size()));
+  if (result.off_cone > kMostOffCone * result.height)
+    result.warnings.push_back(
+        fmt::format("the flank lies {:.2g} mm off a cone, {:.0f} % of the height, limit {:.0f} %: look at the picture",
+                    1e3 * result.off_cone, 100 * result.off_cone / result.height, 100 * kMostOffCone));
   result.curvature = line_through(upper).angle() - line_through(lower).angle();
 
   const AzimuthMean mean = azimuth_mean(result.strip_angles);

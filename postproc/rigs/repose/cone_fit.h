@@ -13,10 +13,13 @@
 //    the part above kFlankTop of its height.
 //
 // Limits: a constant angle on the flank is assumed; `curvature` tells how much steeper the upper half is than the
-// lower. Tested on synthetic cones of known angle (tests/rigs/cone_fit_test.cpp). Errors: BadInput if the flank is
-// shorter than kLeastFlank cells: the heap has too few grains.
+// lower, `off_cone` how far the flank's cells lie from the mean cone. Beyond kMostOffCone of the height (two heaps, a
+// half of one, a step in it) the angle is no slope of anything, and a warning says so. Tested on synthetic cones of
+// known angle (tests/rigs/cone_fit_test.cpp). Errors: BadInput if the flank is shorter than kLeastFlank cells: the heap
+// has too few grains.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "rigs/repose/heap.h"
@@ -28,6 +31,7 @@ constexpr int kConeStrips = 24;
 constexpr double kFlankTop = 0.8, kFlankFoot = 0.2;  // of the greatest height
 constexpr int kLeastFlank = 4;                       // cells
 constexpr double kOnAxis = 2;                        // diameters
+constexpr double kMostOffCone = 0.15;                // of the height
 
 struct ConeFit {
   double angle = 0, u = 0;              // deg
@@ -37,10 +41,12 @@ struct ConeFit {
   double flank_from = 0, flank_to = 0;  // m, radii
   double intercept = 0, slope = 0;      // mean line z = intercept - slope r, m and 1
   double off_axis = 0;                  // m, of the heap's summit from the cylinder's axis
+  double off_cone = 0;                  // m, root mean square of the flank's cells from the mean line
   bool about_summit = false;            // the strips go from the summit, not from the axis
   std::vector<double> strip_angles;     // deg
   std::vector<SurfacePoint> profile;    // mean over the strips
   std::vector<SurfacePoint> surface;    // all cells
+  std::vector<std::string> warnings;    // limits violated
 };
 
 ConeFit cone_fit(const Heap& heap);

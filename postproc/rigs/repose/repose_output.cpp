@@ -39,6 +39,8 @@ nlohmann::ordered_json repose_json(const Heap& heap, const ConeFit& f) {
       {"line_slope", f.slope},
       {"summit_off_axis_m", f.off_axis},
       {"about_summit", f.about_summit},
+      {"off_cone_m", f.off_cone},
+      {"quality", {{"ok", f.warnings.empty()}, {"warnings", f.warnings}}},
       {"dt_over_tc", h.dt_over_tc},
       {"strip_angles_deg", f.strip_angles},
   });
@@ -47,7 +49,7 @@ nlohmann::ordered_json repose_json(const Heap& heap, const ConeFit& f) {
 
 std::string repose_table(const Heap& heap, const ConeFit& f) {
   const HeapHeader& h = heap.header;
-  ResultTable table;
+  ResultTable table(f.warnings);
   table.text(fmt::format("{} on {} ({} base), {} {} of {} mm, lifted at {} mm/s, seed {}",
                          material_text(h.material, h.provisional), h.wall, h.base, grain_count(heap),
                          h.spheres_per_grain > 1
@@ -63,6 +65,7 @@ std::string repose_table(const Heap& heap, const ConeFit& f) {
   table.line("flank to radius", 1e3 * f.flank_to, "mm");
   table.line(f.about_summit ? "summit off the axis (measured about it)" : "summit off the axis", 1e3 * f.off_axis,
              "mm");
+  table.line("flank off the mean cone (root mean square)", 1e3 * f.off_cone, "mm");
   table.line("at rest after", h.rest_time, "s");
   table.time_step(h);
   return table.written();

@@ -15,6 +15,7 @@ PostResult post_repose(const PostInput& input) {
   const Heap heap = read_heap(input.record);
   const ConeFit fit = cone_fit(heap);
   PostResult result;
+  result.warnings = fit.warnings;
   result.rows = repose_observations(heap, fit, input.label_or(fmt::format("repose-{}", heap.header.lift_speed)));
   result.table = repose_table(heap, fit);
   result.numbers = repose_json(heap, fit);
