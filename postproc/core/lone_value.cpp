@@ -4,16 +4,13 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
+
+#include "core/median.h"
 
 namespace vielto {
 
 namespace {
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 // Of a value from the median of a signal, in its robust standard deviations; 0 where most values are one and the same.
 double deviations(const std::vector<double>& signal, double value) {

@@ -13,6 +13,7 @@
 #include "core/bad_input.h"
 #include "core/csv.h"
 #include "core/lone_value.h"
+#include "core/median.h"
 #include "core/steady_part.h"
 
 namespace vielto {
@@ -192,11 +193,6 @@ class Clock {
   bool dated_ = false;
   long first_day_ = 0;
 };
-
-double median(std::vector<double> values) {
-  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
-  return values[values.size() / 2];
-}
 
 }  // namespace
 
