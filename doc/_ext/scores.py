@@ -32,7 +32,12 @@ SHARES = {
     "coverage90": "in the 90 % interval",
     "where_f1": "F1 of the regions",
 }
-OTHERS = {"closure": "closure", "placebo": "closure by a placebo", "brier": "Brier score"}
+OTHERS = {
+    "closure": "closure",
+    "closure_true_effect": "closed by the true effect itself",
+    "placebo": "closure by a placebo",
+    "brier": "Brier score",
+}
 
 
 def number(value):

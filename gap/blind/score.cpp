@@ -140,11 +140,11 @@ std::pair<double, double> interval(const Pick& cases, const std::function<double
       for (std::size_t i = 0; i < pool.size(); ++i)
         drawn.push_back(pool[std::uniform_int_distribution<std::size_t>(0, pool.size() - 1)(random)]);
     }
-    draws.push_back(statistic(drawn));
+    if (const double drawn_value = statistic(drawn); std::isfinite(drawn_value)) draws.push_back(drawn_value);
   }
   if (draws.empty()) return {0, 0};
   std::sort(draws.begin(), draws.end());
-  return {draws[50], draws[1949]};
+  return {draws[draws.size() / 40], draws[draws.size() - 1 - draws.size() / 40]};
 }
 
 }  // namespace
@@ -183,8 +183,9 @@ void add_proportion(json& into, const std::string& key, const Pick& picked, cons
 
 void add_pooled(json& into, const std::string& key, const Pick& picked,
                 const std::function<double(const Pick&)>& statistic) {
-  const auto [low, high] = interval(picked, statistic);
-  into[key] = picked.empty() ? json() : json(statistic(picked));
+  const double value = picked.empty() ? std::nan("") : statistic(picked);
+  const auto [low, high] = std::isfinite(value) ? interval(picked, statistic) : std::pair<double, double>{0, 0};
+  into[key] = std::isfinite(value) ? json(value) : json();
   into[key + "_low95"] = low;
   into[key + "_high95"] = high;
   into[key + "_n"] = picked.size();
@@ -258,9 +259,14 @@ double closes(const Pick& picked, const std::function<double(const Scored&)>& wh
   return recalibrated > 0 ? 1 - std::sqrt(std::max(0.0, after) / recalibrated) : 0.0;
 }
 
+double true_effect_closes(const Pick& p) {
+  return closes(p, [](const Scored& c) { return square(c.truth["check_true_effect"].get<double>()); });
+}
+
+// No number where the true effect at its true strength closes nothing itself: the rest of the gap is larger then.
 double closure(const Pick& p) {
-  const double best = closes(p, [](const Scored& c) { return square(c.truth["check_true_effect"].get<double>()); });
-  return best > 0 ? closes(p, [](const Scored& c) { return mean_square(c, "after"); }) / best : 0.0;
+  const double best = true_effect_closes(p);
+  return best > 0 ? closes(p, [](const Scored& c) { return mean_square(c, "after"); }) / best : std::nan("");
 }
 
 void add_closures(json& result, const std::vector<Scored>& cases) {
@@ -276,6 +282,7 @@ void add_closures(json& result, const std::vector<Scored>& cases) {
     return closes(p, [](const Scored& c) { return mean_square(c, "placebo"); });
   };
   add_pooled(result, "closure", strong, closure);
+  add_pooled(result, "closure_true_effect", strong, true_effect_closes);
   add_pooled(result, "placebo", strong, placebo);
   if (measured > 0 && measured < wanted) {
     add_pooled(result, "closure_resimulated", simulated, closure);

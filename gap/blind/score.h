@@ -13,7 +13,10 @@
 //   removed_named  removed, strong: named
 //   coverage90     prior: the true strength lies in the interval given for its effect (where one is given)
 //   closure        known, strong, pooled over cases: what `after` closes beyond recalibration over what the true effect
-//                  closes, each 1 - sqrt(sum after^2 / sum recalibrated^2); a verdict without an effect closes nothing
+//                  closes, each 1 - sqrt(sum after^2 / sum recalibrated^2); a verdict without an effect closes nothing.
+//                  null where the true effect itself closes nothing
+//   closure_true_effect   what the true effect at its true strength, without recalibration, closes of what
+//                  recalibration leaves
 //   placebo        the same for the placebo
 //   closure_resimulated, placebo_resimulated   of those cases alone whose tests were simulated again, if not all were
 //   brier          mean over all cases of sum_k (p_k - [k is true])^2

@@ -225,6 +225,21 @@ TEST_F(GapBlind, ClosuresAreMeasuredWhereCasesWereSimulatedAgain) {
   EXPECT_EQ(part["closure_resimulated_n"], int(part["closure_n"]) - 2);  // nor the one without a gap
   EXPECT_NEAR(part["closure_resimulated"], 0, 1e-12);
   EXPECT_NEAR(part["placebo_resimulated"], 0, 1e-12);
+  EXPECT_GT(part["closure_true_effect"], 0);
+  // recalibration leaves less than the true effect at its true strength: there is nothing to be a share of
+  for (const auto& entry : fs::directory_iterator(folder_ / "simulated")) {
+    json answer = json::parse(content(entry.path() / "diagnosis.json"));
+    answer["shrink"] = {{"before", 0.3}, {"recalibrated", 1e-6}, {"after", 0.2}, {"placebo", 0.2}};
+    answer["shrink_predicted"] = answer["shrink"];
+    std::ofstream(entry.path() / "diagnosis.json") << answer;
+  }
+  ASSERT_EQ(run(fmt::format(
+                "cd '{}' && gap-score blind --answers simulated --sealed sealed/isolability.json --out simulated.json",
+                folder_.string())),
+            0)
+      << output_;
+  EXPECT_TRUE(score("simulated.json")["closure"].is_null());
+  EXPECT_LT(score("simulated.json")["closure_true_effect"], 0);
   fs::remove_all(folder_ / "simulated");
 }
 
