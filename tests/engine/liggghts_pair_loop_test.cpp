@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The pair loop: our own and LIGGGHTS' give the same numbers, and a contact that ends takes its history with it.
+#include <sys/resource.h>
+
 #include "tests/rigs/sheared_bed.h"
 
 namespace {
@@ -63,6 +65,30 @@ TEST_P(PairLoops, OursGivesTheNumbersOfLiggghtsToTheLastDigit) {
   }
   EXPECT_EQ(states[0], states[1]);
   EXPECT_GT(states[0].size(), 10000u);
+}
+
+/* Two grains that meet in a box of 22 million bins: the list costs no more memory than LIGGGHTS' own, which an
+   exclusion asks for, and says the same. What runs have taken is read as that of the largest so far, so LIGGGHTS' comes
+   first. */
+TEST(PairListInALargeBox, TakesTheMemoryOfLiggghtsAndSaysTheSame) {
+  long kilobytes[2];
+  std::string states[2];
+  for (const bool ours : {false, true}) {
+    Liggghts run;
+    Sphere grain;
+    grain.x = {0, 0, 2.1 * grain.radius};
+    grain.v = {0.3, 0, -0.4};
+    run.script = head(run, {Sphere(), grain}, {Material(), Material()}, 0.7) +
+                 (ours ? "" : "neigh_modify exclude type 2 2\n") + "timestep 2e-6\nfix move all nve/sphere\n" +
+                 dump_grains("states", 400) + "run 4000\n";
+    run.must();
+    rusage taken;
+    ASSERT_EQ(getrusage(RUSAGE_CHILDREN, &taken), 0);
+    kilobytes[ours] = taken.ru_maxrss;
+    states[ours] = run.read("states");
+  }
+  EXPECT_LT(static_cast<double>(kilobytes[1]), 1.2 * static_cast<double>(kilobytes[0]));
+  EXPECT_EQ(states[0], states[1]);
 }
 
 INSTANTIATE_TEST_SUITE_P(StiffAndSoft, PairLoops, testing::Values(1e6, 2e4));
