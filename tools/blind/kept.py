@@ -5,7 +5,6 @@ A run is known by its command without the folder: cases that ask for the same co
 rig's files; its first rows state their hashes, and `vielto gap confirm` refuses what was made from others.
 """
 import hashlib
-import json
 import pathlib
 import re
 import shlex

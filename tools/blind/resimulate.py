@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Simulates the check tests of some withheld cases again, with `vielto` and `liggghts` on the PATH: does the gap close?
 
-  scripts/blind resimulate [--share 0.5] [--draw 1] [--kept TABLE] FOLDER/check/truth FOLDER/answers FOLDER/check/cases SEALED/isolability.json LIBRARY [OPTIONS]
+  scripts/blind resimulate [--share 0.5] [--draw 1] [--kept TABLE] FOLDER/check/truth FOLDER/answers FOLDER/check/cases
+      SEALED/isolability.json LIBRARY [OPTIONS]
 
 Of the strong cases with one known effect whose answer is not "no gap" a share is drawn; which ones rests on --draw alone, and
 a smaller share is the beginning of a larger one. The measured shrink goes into each answer, where gap-score finds it.
