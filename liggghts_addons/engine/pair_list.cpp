@@ -46,7 +46,7 @@ class Sorted {
   std::vector<double> columns_[5];
 };
 
-// A bin that is visited costs a nanosecond, a grain's neighbours a microsecond.
+// By estimate: a bin that is visited costs about a nanosecond, a grain's neighbours a microsecond.
 constexpr int bins_per_grain = 1000;
 
 // Bins whose offsets follow one another.
